@@ -1,0 +1,99 @@
+"""What can go wrong by the user's hand, told so that it can be mended.
+
+Every message names the place, what was received, what is allowed and what to do. The classes are dataclasses without an
+``__init__`` of their own, because only those survive the way back from a worker process.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+__all__ = ["CampaignError", "DesignError", "FddbenchError", "Mistake", "ResultsError", "UnknownNameError", "did_you_mean"]
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """Sentence that suggests the nearest known name, or the empty string.
+
+    >>> did_you_mean("medain", ["median", "closest_two"])
+    "Did you mean 'median'?"
+    """
+    close = get_close_matches(name, list(known), n=1)
+    return f"Did you mean {close[0]!r}?" if close else ""
+
+
+class FddbenchError(Exception):
+    """Base of everything that is the user's to mend; `fddbench` prints it and exits with 2."""
+
+
+@dataclass(eq=False)
+class UnknownNameError(FddbenchError):
+    """A campaign names a benchmark, fault, voter or detector that nobody registered."""
+
+    family: str
+    name: str
+    known: tuple[str, ...]
+    where: str = ""
+
+    def __str__(self) -> str:
+        """Name the place, the nearest known name, all of them, and the remedy."""
+        lines = [
+            f"{self.where + ': ' if self.where else ''}no {self.family} is called {self.name!r}.",
+            did_you_mean(self.name, self.known),
+            f"Known: {', '.join(sorted(self.known)) or 'none'}.",
+            f'Register a new one under [project.entry-points."fddbench.{self.family}s"].',
+        ]
+        return "\n".join(filter(None, lines))
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """One mistake in a file: where it stands and what to do about it.
+
+    Attributes
+    ----------
+    where : str
+        ``file:line:column``.
+    message : str
+        What was received, what is allowed, what to do.
+    """
+
+    where: str
+    message: str
+
+    def __str__(self) -> str:
+        """One line, as compilers print it."""
+        return f"{self.where}: {self.message}"
+
+
+@dataclass(eq=False)
+class CampaignError(FddbenchError):
+    """All mistakes of a campaign or design file at once."""
+
+    mistakes: tuple[Mistake, ...]
+
+    def __str__(self) -> str:
+        """Every mistake on its own line, with the count when there are several."""
+        lines = [str(mistake) for mistake in self.mistakes]
+        return "\n".join(lines if len(lines) == 1 else [f"{len(lines)} mistakes", *lines])
+
+
+@dataclass(eq=False)
+class DesignError(FddbenchError):
+    """A detector's numbers do not make a detector (diverging observer, wrong sample time, wrong shape)."""
+
+    message: str
+
+    def __str__(self) -> str:
+        """The message as written."""
+        return self.message
+
+
+@dataclass(eq=False)
+class ResultsError(FddbenchError):
+    """A folder of results is not what the command needs."""
+
+    message: str
+
+    def __str__(self) -> str:
+        """The message as written."""
+        return self.message
