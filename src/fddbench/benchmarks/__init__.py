@@ -1,0 +1,1 @@
+"""Aircraft and engines in closed loop, one folder each."""

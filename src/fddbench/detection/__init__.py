@@ -1,0 +1,1 @@
+"""Detectors: residual generators and the logic that declares faults."""

@@ -1,0 +1,1 @@
+"""Shared physics: atmosphere, aircraft models, actuators, sensors, gusts."""

@@ -1,0 +1,1 @@
+"""Scores: from verdicts at samples to detection times, rates and exact intervals."""

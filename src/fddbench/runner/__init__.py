@@ -1,0 +1,1 @@
+"""Flies campaigns: chunks of cases on a pool of workers."""

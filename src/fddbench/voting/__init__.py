@@ -1,0 +1,1 @@
+"""One signal of several redundant sensors."""
