@@ -11,9 +11,11 @@ import numpy as np
 from fddbench.blocks.functions import exp
 from fddbench.blocks.layout import Layout, Rows
 
-__all__ = ["GUST_CONSTANTS", "SCALE_LENGTH_M", "gust_constants", "gust_m_s", "gust_start", "gust_step"]
+__all__ = ["GUST_CONSTANTS", "SCALE_LENGTH_M", "WINDS_M_S", "gust_constants", "gust_m_s", "gust_start", "gust_step"]
 
 SCALE_LENGTH_M = 533.4
+WINDS_M_S = {"none": 0.0, "light": 1.5, "moderate": 3.0, "severe": 6.0}
+"""One sigma of the lateral gust by wind [m/s], above 2000 ft."""
 GUST_CONSTANTS = Layout(decay_ratio=0, coupling_ratio=0, noise_11=0, noise_21=0, noise_22=0, sigma_m_s=0)
 _ROOT3 = float(np.sqrt(3.0))
 # stationary covariance of (x1, x2) for unit output variance: [[1/2, 1/4], [1/4, 1/4]]

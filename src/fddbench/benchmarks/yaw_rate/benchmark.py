@@ -6,6 +6,7 @@ from fddbench.benchmarks.yaw_rate.loop import LateralLoop
 from fddbench.benchmarks.yaw_rate.manoeuvres import DURATIONS_S
 from fddbench.benchmarks.yaw_rate.parameters import PARAMETERS, REFUSED
 from fddbench.benchmarks.yaw_rate.sensors import PRESETS
+from fddbench.flight.turbulence import WINDS_M_S
 from fddbench.interfaces import Options, Parameter
 
 __all__ = ["YawRate"]
@@ -27,7 +28,7 @@ class YawRate:
     plants: tuple[str, ...] = ("lateral_lpv",)
     voters: tuple[str, ...] = ("median", "closest_two")
     sensors: tuple[str, ...] = tuple(PRESETS)
-    winds: tuple[str, ...] = ("none", "dryden")
+    winds: tuple[str, ...] = tuple(WINDS_M_S)
     manoeuvres: Mapping[str, float] = DURATIONS_S
     admissible_range_deg_s = 40.0
     sensor_range_deg_s = 128.0

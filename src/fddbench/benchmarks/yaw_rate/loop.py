@@ -41,7 +41,8 @@ class LateralLoop:
         self.faults = FaultStep(sites, options.fault_slots, options.sample_s)
         self.law = LateralLaw(sample_s=options.sample_s)
         self.actuators = plant.actuators(options.sample_s)
-        self.windy = options.wind != "none"
+        self.wind_m_s = turbulence.WINDS_M_S[options.wind]
+        self.windy = self.wind_m_s > 0.0
         self.consumers = (consumers.SENSORS_A, consumers.SENSORS_B, *((consumers.GUST,) if self.windy else ()))
         self.fault_consumers = tuple(consumers.FAULT_SLOT_0 + j for j in range(options.fault_slots))
         self.start_consumers = (consumers.START,)
@@ -77,7 +78,9 @@ class LateralLoop:
             gust = {"gust": turbulence.gust_start(flights.normals)}
             gust_constants = {
                 "gust": turbulence.gust_constants(
-                    sigma_m_s=flights.parameters["gust_sigma_m_s"], v_tas_m_s=constants["v_tas_m_s"], sample_s=self.sample_s
+                    sigma_m_s=self.wind_m_s * flights.parameters["gust_scale_ratio"],
+                    v_tas_m_s=constants["v_tas_m_s"],
+                    sample_s=self.sample_s,
                 )
             }
         return Start(

@@ -31,7 +31,7 @@ PARAMETERS: tuple[Parameter, ...] = (
     _error("x_cg_error_percent", "centre of gravity"),
     _error("altitude_error_percent", "altitude"),
     _error("v_cas_error_percent", "calibrated airspeed"),
-    Parameter(name="gust_sigma_m_s", about="lateral gust, one sigma; needs wind: dryden", default=1.5, low=0.0, high=10.0),
+    Parameter(name="gust_scale_ratio", about="share of the gust of the chosen wind", default=1.0, low=0.0, high=10.0),
 )
 
 REFUSED: Mapping[str, str] = {
