@@ -72,6 +72,16 @@ def _table(plan: Plan) -> Iterator[str]:
         cells = [name.ljust(widths[0]), manoeuvre.ljust(widths[1])]
         cells += [text.rjust(width) for text, width in zip(numbers, widths[2:5], strict=True)]
         yield "  " + "  ".join([*cells, faults]).rstrip()
+    short = [scenario.name for scenario in plan.scenarios if _ends_before_limit(scenario, plan.campaign.sample_s)]
+    if short:
+        text = f"Undetected faults are censored, not missed, where the flight ends before its limit: {', '.join(short)}"
+        yield fill(text, _WIDTH)
+
+
+def _ends_before_limit(scenario: PlannedScenario, sample_s: float) -> bool:
+    if scenario.k0 is None or scenario.limit_s is None:
+        return False
+    return (scenario.n_samples - 1 - scenario.k0) * sample_s < scenario.limit_s - sample_s / 2.0
 
 
 def _line(scenario: PlannedScenario) -> tuple[str, str, str, str, str, str]:
@@ -130,14 +140,15 @@ def _distribution(distribution: Distribution) -> str:
 
 def _design(design: Design) -> Iterator[str]:
     seen = ", ".join(f"{entry.campaign} seed {entry.seed}" for entry in design.tuned_on) or "no campaign"
-    text = f"{design.name} ({design.kind}): {' '.join(design.source.split())}; tuned on {seen}"
+    text = f"{design.name} ({design.kind}): {' '.join(design.source.split()).rstrip('.')}; tuned on {seen}"
     yield fill(text, _WIDTH, initial_indent="  ", subsequent_indent="    ")
 
 
 def _bill(plan: Plan, seconds: float, jobs: int) -> Iterator[str]:
+    n = len(plan.campaign.designs)
     flown = sum(scenario.n_runs * scenario.duration_s for scenario in plan.scenarios)
     disk = plan.n_rows * _BYTES_PER_ROW + _BYTES_PER_FOLDER
-    rows = f"{plan.n_cases:,} cases x {len(plan.campaign.designs)} detectors = {plan.n_rows:,} rows"
+    rows = f"{plan.n_cases:,} cases x {n} detector{'s' if n > 1 else ''} = {plan.n_rows:,} rows"
     yield f"{rows}, {flown / 3600:.4g} h of flight"
     yield f"About {_duration(seconds)} with {jobs} jobs, and {_size(disk)} on disk"
 

@@ -1,6 +1,6 @@
 """Flies cases of a finished campaign again and keeps the signals: for pictures and for a close look."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -46,33 +46,43 @@ def _worst(rows: pd.DataFrame) -> int:
     return int(rows["case"].iloc[int(np.argmax(badness.to_numpy(dtype=float)))])
 
 
-def replay(folder: Path, cases: Mapping[str, Cases] | None = None, *, seconds: float = 30.0) -> Iterator[Recording]:
+def replay(
+    folder: Path,
+    cases: Mapping[str, Cases] | None = None,
+    *,
+    seconds: Mapping[str, float] | None = None,
+    signals: Collection[str] | None = None,
+) -> Iterator[Recording]:
     """Recordings of cases, scenario by scenario, from the frozen campaign of a folder of results.
 
     Parameters
     ----------
     folder : Path
         Folder of results.
-    cases : mapping of str to array
-        Case numbers by scenario.
-    seconds : float
-        Recorded from the beginning of the flight, and after the onset of a fault [s].
+    cases : mapping of str to array, optional
+        Case numbers by scenario; all cases by default.
+    seconds : mapping of str to float, optional
+        By scenario, how long after the onset of its fault the recording stops [s]; to the end by default.
+    signals : collection of str, optional
+        Measured and true signals to keep; all by default. What the detectors show is always kept.
     """
     assembly = assemble(read_campaign(folder / "campaign.yaml"))
     for planned in assembly.plan.scenarios:
         chosen = (cases or {}).get(planned.name, np.arange(planned.first_case, planned.first_case + planned.n_runs))
         if len(chosen):
-            yield record(assembly, planned, chosen, seconds=seconds)
+            yield _record(assembly, planned, chosen, (seconds or {}).get(planned.name), signals)
 
 
-def record(assembly: Assembly, planned: PlannedScenario, cases: Cases, *, seconds: float) -> Recording:
-    """Signals of cases of one scenario, up to `seconds` after the onset (of a healthy flight: to its end)."""
+def _record(
+    assembly: Assembly, planned: PlannedScenario, cases: Cases, seconds: float | None, signals: Collection[str] | None
+) -> Recording:
+    """Signals of cases of one scenario."""
     sample_s = assembly.loop.bus.sample_s
     batch = assembly.batch(cases)
     last = planned.n_samples - 1
-    if planned.k0 is not None:
+    if planned.k0 is not None and seconds is not None:
         last = min(last, planned.k0 + round(seconds / sample_s))
-    tape = _Tape(assembly, batch, last)
+    tape = _Tape(assembly, batch, last, signals)
     fly(assembly, tape.shortened(batch), tape)
     return Recording(
         scenario=planned.name,
@@ -87,8 +97,8 @@ def record(assembly: Assembly, planned: PlannedScenario, cases: Cases, *, second
 class _Tape:
     """Keeps what a flight shows, (n_time, n_cases) a signal."""
 
-    def __init__(self, assembly: Assembly, batch: Batch, last: int) -> None:
-        self.assembly, self.last = assembly, last
+    def __init__(self, assembly: Assembly, batch: Batch, last: int, signals: Collection[str] | None) -> None:
+        self.assembly, self.last, self.kept = assembly, last, signals
         self.shape = (last + 1, len(batch.cases))
         self.signals: dict[str, Floats] = {}
         self.detectors: dict[str, dict[str, Floats]] = {name: {} for name in assembly.detectors}
@@ -104,11 +114,14 @@ class _Tape:
     ) -> None:
         """Write one sample."""
         for name, rows in self.assembly.loop.bus.signals.items():
+            if self.kept is not None and name not in self.kept:
+                continue
             value = getattr(measured, name)
             for i, row in enumerate(value if rows else [value]):
                 self._write(self.signals, f"{name}_{i + 1}" if rows else name, sample, row)
         for name, value in truth.items():
-            self._write(self.signals, name, sample, value)
+            if self.kept is None or name in self.kept:
+                self._write(self.signals, name, sample, value)
         for detector, verdict in verdicts.items():
             tape = self.detectors[detector]
             self._write(tape, "n_declared", sample, total(verdict.declared))

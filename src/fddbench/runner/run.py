@@ -19,8 +19,9 @@ __all__ = ["Progress", "RunReport", "run_campaign"]
 
 @dataclass(frozen=True, kw_only=True)
 class Progress:
-    """How far a run is: flights done of all, rows by status so far."""
+    """How far a run is: flights flown by it, done in all, of how many, and rows by status so far."""
 
+    flown: int
     done: int
     total: int
     statuses: Counter[str]
@@ -109,7 +110,8 @@ def run_campaign(
                 flown += sum(count for _, count in shard.cases)
                 statuses.update(shard.statuses)
                 if progress is not None:
-                    progress(Progress(done=plan.n_cases - len(left) + flown, total=plan.n_cases, statuses=statuses))
+                    done_now = plan.n_cases - len(left) + flown
+                    progress(Progress(flown=flown, done=done_now, total=plan.n_cases, statuses=statuses))
         except KeyboardInterrupt:
             interrupted = True
         finally:
