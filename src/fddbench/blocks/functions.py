@@ -37,7 +37,7 @@ _MORE_BITS = 6.123233995736765886130e-17
 
 def _horner(coefficients: tuple[float, ...], x: Rows) -> Rows:
     """Polynomial, highest power first."""
-    value = coefficients[0]
+    value: Rows = coefficients[0]
     for coefficient in coefficients[1:]:
         value = value * x + coefficient
     return value
@@ -60,14 +60,14 @@ def sin(x: Rows) -> Rows:
     0.479425538604203
     """
     quadrant, sine, cosine = _sine_and_cosine(x)
-    value = np.where((quadrant == 1.0) | (quadrant == 3.0), cosine, sine)
+    value: Rows = np.where((quadrant == 1.0) | (quadrant == 3.0), cosine, sine)
     return np.where(quadrant >= 2.0, -value, value)
 
 
 def cos(x: Rows) -> Rows:
     """Cosine of an angle [rad], |x| < 1e5; absolute error below 1.2e-16 for |x| < 100."""
     quadrant, sine, cosine = _sine_and_cosine(x)
-    value = np.where((quadrant == 1.0) | (quadrant == 3.0), sine, cosine)
+    value: Rows = np.where((quadrant == 1.0) | (quadrant == 3.0), sine, cosine)
     return np.where((quadrant == 1.0) | (quadrant == 2.0), -value, value)
 
 
@@ -101,7 +101,8 @@ def pow_(x: Rows, y: float) -> Rows:
 
 def _atan_positive(x: Rows) -> Rows:
     """Arc tangent of a non-negative number [rad]; error below 1 ulp."""
-    large, middle = x > _TAN_3PI_8, x > 0.66
+    large: Rows = x > _TAN_3PI_8
+    middle: Rows = x > 0.66
     reduced = np.where(large, -1.0 / np.where(large, x, 1.0), np.where(middle, (x - 1.0) / (x + 1.0), x))
     base = np.where(large, np.pi / 2.0, np.where(middle, np.pi / 4.0, 0.0))
     more = np.where(large, _MORE_BITS, np.where(middle, 0.5 * _MORE_BITS, 0.0))
@@ -114,7 +115,8 @@ def atan2(y: Rows, x: Rows) -> Rows:
     """Angle of the point (x, y) [rad], between -pi and pi; 0 at the origin; error below 2 ulp."""
     ay, ax = np.abs(y), np.abs(x)
     steep = ay > ax
-    small, large = np.where(steep, ax, ay), np.where(steep, ay, ax)
+    small: Rows = np.where(steep, ax, ay)
+    large: Rows = np.where(steep, ay, ax)
     angle = _atan_positive(small / np.where(large > 0.0, large, 1.0))
     angle = np.where(steep, np.pi / 2.0 - angle, angle)
     angle = np.where(x < 0.0, np.pi - angle, angle)

@@ -25,8 +25,12 @@ def parser() -> argparse.ArgumentParser:
 
     run = _add(subs, "run", commands.run)
     _campaign(run)
-    run.add_argument("--out", type=Path, metavar="DIR", help="folder of results (default: results/<name of the campaign>)")
-    run.add_argument("--jobs", type=_jobs, default=2, metavar="N", help="worker processes (default: 2); no part of any result")
+    run.add_argument(
+        "--out", type=Path, metavar="DIR", help="folder of results (default: results/<name of the campaign>)"
+    )
+    run.add_argument(
+        "--jobs", type=_jobs, default=2, metavar="N", help="worker processes (default: 2); no part of any result"
+    )
     run.add_argument("--fresh", action="store_true", help="replace what the folder holds")
     run.add_argument("--quiet", action="store_true", help="no progress")
 
@@ -54,7 +58,9 @@ def _add(subs, name: str, command: Callable[[argparse.Namespace], int]) -> argpa
 
 
 def _campaign(command: argparse.ArgumentParser) -> None:
-    command.add_argument("campaign", type=Path, metavar="CAMPAIGN.yaml", help="campaign file, or the name of a shipped one")
+    command.add_argument(
+        "campaign", type=Path, metavar="CAMPAIGN.yaml", help="campaign file, or the name of a shipped one"
+    )
     command.add_argument(
         "--set", action="append", default=[], metavar="PATH=VALUE", dest="overrides",
         help="change a value of the campaign, e.g. dispersions.monte_carlo.runs=10 (may be repeated)",

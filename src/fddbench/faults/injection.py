@@ -5,6 +5,7 @@ leave every bit of the healthy signal as it was.
 """
 
 from collections.abc import Sequence
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -73,7 +74,9 @@ class FaultStep:
     def _column(self, fault: FaultSpecification, units: SensorUnits) -> np.ndarray:
         """Constants of one fault, (n_slot_rows,)."""
         wave = fault.wave(units)
-        signs = {site: -1.0 if fault.correlation == "opposite" and nth % 2 else 1.0 for nth, site in enumerate(fault.sites)}
+        signs = {
+            site: -1.0 if fault.correlation == "opposite" and nth % 2 else 1.0 for nth, site in enumerate(fault.sites)
+        }
         last = NEVER if fault.end_s is None else float(round(fault.end_s / self.sample_s)) - 1.0
         values = {name: np.array(getattr(wave, name)) for name in _WAVE}
         packed: np.ndarray = self.slot.pack(
@@ -94,7 +97,9 @@ class FaultStep:
         packed: np.ndarray = self.slot.pack(**{**values, **never})
         return packed
 
-    def step(self, healthy: Rows, state: Rows, constants: Rows, normals: Sequence[Rows], sample: Rows) -> tuple[Rows, Rows]:
+    def step(
+        self, healthy: Rows, state: Rows, constants: Rows, normals: Sequence[Rows], sample: Rows
+    ) -> tuple[Rows, Rows]:
         """Faulty signal, (n_sites, n_cases), and the state at the next sample.
 
         Parameters
@@ -115,7 +120,9 @@ class FaultStep:
             )
         return signal, self.states.pack(**after)
 
-    def _slot(self, y, before, held, bit, c, normals, sample):  # type: ignore[no-untyped-def]
+    def _slot(
+        self, y: Rows, before: Rows, held: Rows, bit: Rows, c: SimpleNamespace, normals: Rows, sample: Rows
+    ) -> tuple[Rows, Rows, Rows]:
         """One fault on all sites: signal, held value and random bit."""
         since = sample - c.first
         active = (since >= 0.0) & (sample <= c.last)

@@ -46,9 +46,12 @@ def infeasible_reasons(mass_kg: Rows, altitude_ft: Rows, v_cas_kt: Rows) -> tupl
     buffet = interpolate(number, column(_BUFFET_MACH), column(_BUFFET_LIFT))
     drag, thrust = level_flight_drag_n(mass_kg, altitude_ft, v_cas_kt), thrust_available_n(altitude_ft, v_cas_kt)
     tests = (
-        (v_cas_kt > V_MO_KT, lambda i: f"above V_MO: {v_cas_kt[i]:.0f} kt > {V_MO_KT:.0f} kt"),
-        (number > M_MO, lambda i: f"above M_MO: Mach {number[i]:.3f} > {M_MO}"),
-        (lift > buffet, lambda i: f"buffet: C_L {lift[i]:.2f} > {buffet[i]:.2f} at Mach {number[i]:.2f}"),
-        (drag > thrust, lambda i: f"thrust: {drag[i] / 1e3:.0f} kN needed, {thrust[i] / 1e3:.0f} kN available"),
+        (v_cas_kt > V_MO_KT, "above V_MO: {0:.0f} kt > {1:.0f} kt", v_cas_kt, np.full_like(v_cas_kt, V_MO_KT)),
+        (number > M_MO, "above M_MO: Mach {0:.3f} > {1:.2f}", number, np.full_like(number, M_MO)),
+        (lift > buffet, "buffet: lift coefficient {0:.2f} > {1:.2f}", lift, buffet),
+        (drag > thrust, "thrust: {0:.0f} kN needed, {1:.0f} kN available", drag / 1e3, thrust / 1e3),
     )
-    return tuple(next((say(i) for broken, say in tests if broken[i]), "") for i in range(len(number)))
+    return tuple(
+        next((text.format(value[i], limit[i]) for broken, text, value, limit in tests if broken[i]), "")
+        for i in range(len(number))
+    )

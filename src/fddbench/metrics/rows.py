@@ -4,8 +4,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from fddbench.interfaces import Floats
 from fddbench.metrics.scoring import NEVER, Scoring
 
@@ -31,7 +29,13 @@ class Truth:
 
 
 def statuses(
-    scoring: Scoring, score: Floats, constants: Floats, *, departed: Floats, infeasible: Sequence[str], errors: Sequence[str]
+    scoring: Scoring,
+    score: Floats,
+    constants: Floats,
+    *,
+    departed: Floats,
+    infeasible: Sequence[str],
+    errors: Sequence[str],
 ) -> tuple[list[str], list[str | None]]:
     """Status and reason of every case."""
     x, c = scoring.states.unpack(score), scoring.constants.unpack(constants)
@@ -105,7 +109,9 @@ def _truth_of(faulty: tuple[str, ...], limit_s: float | None, *, onset_s: float 
     }
 
 
-def _common(x: Mapping[str, float], declared: tuple[str, ...], *, k0: float, end: float, sample_s: float) -> dict[str, Any]:
+def _common(
+    x: Mapping[str, float], declared: tuple[str, ...], *, k0: float, end: float, sample_s: float
+) -> dict[str, Any]:
     """Columns that healthy and faulty flights share."""
     return {
         "flight_s": _seconds(end, sample_s),
@@ -131,9 +137,7 @@ def _of_fault(
     }
 
 
-def _times(
-    alarm: float, detection: float, *, k0: float, end: float, limit_s: float, sample_s: float
-) -> dict[str, Any]:
+def _times(alarm: float, detection: float, *, k0: float, end: float, limit_s: float, sample_s: float) -> dict[str, Any]:
     """Times from the onset, and whether the requirement was met; a flight that ended too early is censored."""
     detected_s = None if detection == NEVER else _seconds(detection - k0, sample_s)
     censored = detected_s is None and _seconds(end - k0, sample_s) < limit_s
@@ -149,7 +153,15 @@ def _times(
 
 
 def event_columns(
-    scoring: Scoring, score: Floats, constants: Floats, *, case: int, event: int, limit_s: float, end: float, sample_s: float
+    scoring: Scoring,
+    score: Floats,
+    constants: Floats,
+    *,
+    case: int,
+    event: int,
+    limit_s: float,
+    end: float,
+    sample_s: float,
 ) -> dict[str, Any]:
     """Times of one fault of one case, scored on its own sites and interval; the case must have the status ok."""
     x, c = scoring.states.unpack(score), scoring.constants.unpack(constants)

@@ -1,6 +1,6 @@
 """A campaign made ready to fly: its closed loop, its detectors, and batches of cases with all their constants."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +10,6 @@ from fddbench.blocks import philox
 from fddbench.campaign.meaning import Campaign, build_detectors
 from fddbench.campaign.plan import Plan, PlannedScenario, plan
 from fddbench.faults.injection import first_samples
-from fddbench.faults.specification import SensorUnits
 from fddbench.interfaces import Detector, Flights, Floats, Loop, Options
 from fddbench.metrics.scoring import NEVER, EventTimes, Scoring
 
@@ -129,7 +128,9 @@ class Assembly:
         drawn = [philox.normals((BEFORE_START, c, run, self.plan.stream), key) for c in self.loop.start_consumers]
         return np.concatenate(drawn)
 
-    def _per_scenario(self, rows_of, scenario: Cases, run: Cases) -> Floats:  # type: ignore[no-untyped-def]
+    def _per_scenario(
+        self, rows_of: Callable[[PlannedScenario, Cases], Floats], scenario: Cases, run: Cases
+    ) -> Floats:
         """Rows made scenario by scenario, put back into the order of the cases."""
         parts = {int(s): rows_of(self.plan.scenarios[s], run[scenario == s]) for s in np.unique(scenario)}
         n_rows = len(next(iter(parts.values()))) if parts else 0
@@ -141,13 +142,10 @@ class Assembly:
     def _fault_rows(self, planned: PlannedScenario, run: Cases) -> Floats:
         slots, sites = len(self.loop.fault_consumers), len(self.loop.bus.sites)
         key = self.plan.campaign.seed
-        phases = [philox.uniforms((BEFORE_START, c, run, planned.stream), key)[:sites] for c in self.loop.fault_consumers]
-        benchmark = self.plan.benchmark
-        units = SensorUnits(
-            admissible_deg_s=benchmark.admissible_range_deg_s, sensor_range_deg_s=benchmark.sensor_range_deg_s
-        )
-        stacked = np.array(phases).reshape(slots, sites, len(run))
-        return self.loop.faults.rows(planned.faults, units, stacked)
+        phases = [
+            philox.uniforms((BEFORE_START, c, run, planned.stream), key)[:sites] for c in self.loop.fault_consumers
+        ]
+        return self.loop.fault_rows(planned.faults, np.array(phases).reshape(slots, sites, len(run)))
 
     def _score_rows(self, planned: PlannedScenario, run: Cases) -> Floats:
         sample_s, sites = self.plan.campaign.sample_s, self.loop.bus.sites

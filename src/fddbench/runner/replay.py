@@ -133,4 +133,3 @@ class _Tape:
         if name not in tape:
             tape[name] = np.full(self.shape, np.nan)
         tape[name][sample] = value
-

@@ -134,4 +134,3 @@ def _provenance(campaign: Campaign) -> dict[str, object]:
         designs_sha256={design.name: design.sha256 for design in campaign.designs},
         seed=campaign.seed,
     )
-

@@ -82,9 +82,7 @@ def _scored(assembly: Assembly, outcome: Outcome, detector: str) -> list[Row]:
         infeasible=batch.infeasible_reason,
         errors=outcome.errors.get(detector, [""] * len(batch.cases)),
     )
-    return _rows(
-        assembly, batch, detector, score=score, departed=outcome.departed, status=status, reason=reason
-    )
+    return _rows(assembly, batch, detector, score=score, departed=outcome.departed, status=status, reason=reason)
 
 
 def _infeasible(assembly: Assembly, batch: Batch, detector: str) -> list[Row]:
@@ -168,7 +166,15 @@ def _events(assembly: Assembly, outcome: Outcome, detector: str, rows: list[Row]
     return found
 
 
-_TIMES = ("first_alarm_time_s", "detection_time_s", "detection_time_limit_s", "normalized_detection_time", "detected", "missed", "censored")
+_TIMES = (
+    "first_alarm_time_s",
+    "detection_time_s",
+    "detection_time_limit_s",
+    "normalized_detection_time",
+    "detected",
+    "missed",
+    "censored",
+)
 
 
 def _own(times: Row) -> Row:

@@ -6,6 +6,7 @@ from fddbench.benchmarks.yaw_rate.loop import LateralLoop
 from fddbench.benchmarks.yaw_rate.manoeuvres import DURATIONS_S
 from fddbench.benchmarks.yaw_rate.parameters import PARAMETERS, REFUSED
 from fddbench.benchmarks.yaw_rate.sensors import PRESETS
+from fddbench.faults.specification import SensorUnits
 from fddbench.flight.turbulence import WINDS_M_S
 from fddbench.interfaces import Options, Parameter
 
@@ -15,8 +16,8 @@ __all__ = ["YawRate"]
 class YawRate:
     """Three yaw-rate sensors of a transport aircraft in closed loop through the voted signal.
 
-    The published figures are percent of a confidential range; 40 deg/s is our choice (it makes all ten faults agree with
-    the published detection times). Limits of 120 s for one faulty sensor and 0.36 s for two are inferred from the
+    The published figures are percent of a confidential range; 40 deg/s is our choice (it makes all ten faults agree
+    with the published detection times). Limits of 120 s for one faulty sensor and 0.36 s for two are inferred from the
     published normalised times, which are integers of 10 ms only over these; Runaway-A, 1.5 s, states its own.
     """
 
@@ -39,4 +40,7 @@ class YawRate:
 
     def loop(self, options: Options) -> LateralLoop:
         """Closed loop for these options."""
-        return LateralLoop(options, self.sites)
+        units = SensorUnits(
+            admissible_deg_s=self.admissible_range_deg_s, sensor_range_deg_s=self.sensor_range_deg_s
+        )
+        return LateralLoop(options, self.sites, units)

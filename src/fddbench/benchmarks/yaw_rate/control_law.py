@@ -13,12 +13,18 @@ from fddbench.blocks.layout import Rows
 from fddbench.blocks.linear import column
 from fddbench.flight.atmosphere import GRAVITY_M_S2
 
-__all__ = ["AILERON_GAINS", "RUDDER_GAINS", "Q_DIAGONAL", "R_DIAGONAL", "LateralLaw"]
+__all__ = ["AILERON_GAINS", "Q_DIAGONAL", "RUDDER_GAINS", "R_DIAGONAL", "LateralLaw"]
 
 _DEG = float(np.deg2rad(1.0))
 # Bryson's rule: tolerated phi 5 deg, V_y of 2 deg of sideslip at 199 m/s, p 20 deg/s, r 2 deg/s, integral 8 deg s;
 # roll order 5 deg, rudder 2 deg
-Q_DIAGONAL = (1 / (5 * _DEG) ** 2, 1 / (199 * 2 * _DEG) ** 2, 1 / (20 * _DEG) ** 2, 1 / (2 * _DEG) ** 2, 1 / (8 * _DEG) ** 2)
+Q_DIAGONAL = (
+    1 / (5 * _DEG) ** 2,
+    1 / (199 * 2 * _DEG) ** 2,
+    1 / (20 * _DEG) ** 2,
+    1 / (2 * _DEG) ** 2,
+    1 / (8 * _DEG) ** 2,
+)
 R_DIAGONAL = (1 / 5.0**2, 1 / 2.0**2)
 # on phi [rad], V_y [m/s], p [rad/s], r [rad/s], integral of phi [rad s]; in deg of surface
 AILERON_GAINS = (94.3526, -0.4748, 37.9427, 37.3931, 34.7426)

@@ -1,6 +1,6 @@
 """One sample of the closed loop: sense, break, vote, order, actuate, fly."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from types import SimpleNamespace
 from typing import Any
 
@@ -15,6 +15,7 @@ from fddbench.blocks import consumers
 from fddbench.blocks.functions import asin, interpolate
 from fddbench.blocks.layout import Layout, Rows
 from fddbench.faults.injection import FaultStep
+from fddbench.faults.specification import FaultSpecification, SensorUnits
 from fddbench.flight import turbulence
 from fddbench.interfaces import Bus, Flights, Floats, Options, Start
 
@@ -32,12 +33,22 @@ class LateralLoop:
     one, surface positions, airspeeds, mass, X_cg and altitude, all with their measurement errors.
     """
 
-    truth = ("phi_true_deg", "beta_true_deg", "p_true_deg_s", "r_true_deg_s", "psi_deg", "y_m", "gust_m_s", "bank_command_deg")
+    truth = (
+        "phi_true_deg",
+        "beta_true_deg",
+        "p_true_deg_s",
+        "r_true_deg_s",
+        "psi_deg",
+        "y_m",
+        "gust_m_s",
+        "bank_command_deg",
+    )
 
-    def __init__(self, options: Options, sites: tuple[str, ...]) -> None:
+    def __init__(self, options: Options, sites: tuple[str, ...], units: SensorUnits) -> None:
         self.sample_s, self.substeps = options.sample_s, options.substeps
         self.noise = PRESETS[options.sensors]
         self.voter = registry.load("voter", options.voter)()
+        self.units = units
         self.faults = FaultStep(sites, options.fault_slots, options.sample_s)
         self.law = LateralLaw(sample_s=options.sample_s)
         self.actuators = plant.actuators(options.sample_s)
@@ -67,6 +78,10 @@ class LateralLoop:
                 **dict.fromkeys(("mass_kg", "x_cg_ratio", "altitude_ft", "v_cas_kt"), 0),
             },
         )
+
+    def fault_rows(self, faults: Sequence[FaultSpecification], phases: Floats) -> Floats:
+        """Data rows of the faults of a scenario, see `fddbench.interfaces.Loop.fault_rows`."""
+        return self.faults.rows(faults, self.units, phases)
 
     def start(self, flights: Flights) -> Start:
         """Wings level in trim: all lateral states are zero, the gust is stationary."""
@@ -115,7 +130,16 @@ class LateralLoop:
         truth = dict(
             zip(
                 self.truth,
-                (_DEG * air.phi_rad, beta_deg, _DEG * air.p_rad_s, _DEG * air.r_rad_s, _DEG * air.psi_rad, air.y_m, gust, command_deg),
+                (
+                    _DEG * air.phi_rad,
+                    beta_deg,
+                    _DEG * air.p_rad_s,
+                    _DEG * air.r_rad_s,
+                    _DEG * air.psi_rad,
+                    air.y_m,
+                    gust,
+                    command_deg,
+                ),
                 strict=True,
             )
         )

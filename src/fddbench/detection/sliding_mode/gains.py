@@ -59,7 +59,9 @@ class SlidingModeGains(BaseModel):
     linear_gain: Annotated[tuple[Matrix5x4, ...], Field(min_length=5, max_length=5)]
     l_row: Row4
     gn_convention: Literal["published", "equation_19"]
-    error_pole_1_s: Annotated[tuple[Annotated[float, Field(lt=0.0, allow_inf_nan=False)], ...], Field(min_length=4, max_length=4)]
+    error_pole_1_s: Annotated[
+        tuple[Annotated[float, Field(lt=0.0, allow_inf_nan=False)], ...], Field(min_length=4, max_length=4)
+    ]
     k: Positive4
     delta: Positive
     w: Row4
