@@ -37,7 +37,13 @@ def frame(rows, schema=None):
 def scores(scenario, detector, rng):
     """Scores of one flown flight."""
     if scenario not in FAULTS:
-        return {"n_faulty": 0, "flight_s": 60.0, "n_declared": 0, "false_alarm": False, "margin_healthy": rng.uniform(0.1, 0.8)}
+        return {
+            "n_faulty": 0,
+            "flight_s": 60.0,
+            "n_declared": 0,
+            "false_alarm": False,
+            "margin_healthy": rng.uniform(0.1, 0.8),
+        }
     n, limit, median, spread = FAULTS[scenario]
     row = FAULTY_FIELDS | {"n_faulty": n, "onset_s": 2.0, "detection_time_limit_s": limit, "flight_s": 7.0 + limit}
     row |= {"faulty_sites": "r1" if n == 1 else "r1+r2", "margin_healthy": 0.4, "margin_faulty": 6.0}
@@ -46,7 +52,13 @@ def scores(scenario, detector, rng):
     time_s = round(max(median + spread * rng.standard_normal(), 0.01), 2)
     over = bool(scenario == "noise_a" and detector == "sliding_mode" and rng.random() < 0.04)
     row |= {"detection_time_s": time_s, "first_alarm_time_s": time_s, "normalized_detection_time": time_s / limit}
-    row |= {"detected": True, "classified": not over, "isolated": not over, "over_declared": over, "missed": time_s > limit}
+    row |= {
+        "detected": True,
+        "classified": not over,
+        "isolated": not over,
+        "over_declared": over,
+        "missed": time_s > limit,
+    }
     return row | {"n_declared": n + over, "declared_sites": row["faulty_sites"]}
 
 
@@ -56,7 +68,8 @@ def synthetic_rows(scenarios, detectors, flights, lost=None):
     for s, scenario in enumerate(scenarios):
         for run in range(flights):
             drawn = np.random.default_rng(run)
-            sizes = (drawn.uniform(180e3, 220e3), drawn.uniform(0.27, 0.33), drawn.uniform(15e3, 25e3), drawn.uniform(260, 320))
+            box = ((180e3, 220e3), (0.27, 0.33), (15e3, 25e3), (260.0, 320.0))
+            sizes = [drawn.uniform(low, high) for low, high in box]
             who = {"case": s * flights + run, "scenario": scenario, "manoeuvre": "cruise", "run": run, "status": "ok"}
             who |= {f"p_{name}": value for name, value in zip(PARAMETERS, (*sizes, 0.0), strict=True)}
             who["fault"] = scenario.partition("_")[0] if scenario in FAULTS else None
@@ -77,9 +90,12 @@ def synthetic_recording(rows, scenario, detectors, n_cases=50):
     time_s = np.arange(0.0, 12.0, 0.01)
     shape = (len(time_s), len(cases))
     on = (time_s >= 2.0)[:, None] & (n > 0)
-    fault = np.where(on, (0.5 if n == 1 else 2.0) * (1.0 if "jam" in scenario else np.sin(3.0 * (time_s[:, None] - 2.0))), 0.0)
+    fault = np.where(
+        on, (0.5 if n == 1 else 2.0) * (1.0 if "jam" in scenario else np.sin(3.0 * (time_s[:, None] - 2.0))), 0.0
+    )
     sensors = {
-        f"r_deg_s_{i + 1}": 0.2 * np.sin(time_s)[:, None] + 0.01 * rng.standard_normal(shape) + fault * (i < n) for i in range(3)
+        f"r_deg_s_{i + 1}": 0.2 * np.sin(time_s)[:, None] + 0.01 * rng.standard_normal(shape) + fault * (i < n)
+        for i in range(3)
     }
     reconstruction = 0.03 * rng.standard_normal(shape) + (0.8 * fault if n == 2 else 0.0)
     at = 2.0 + median + spread * rng.standard_normal(len(cases)) if n else np.full(len(cases), np.inf)
@@ -97,7 +113,9 @@ def synthetic_recording(rows, scenario, detectors, n_cases=50):
     )
 
 
-def synthetic_report(scenarios=(*FAULTS, "healthy_cruise"), detectors=("sliding_mode", "voting_monitor"), flights=100, **changes):
+def synthetic_report(
+    scenarios=(*FAULTS, "healthy_cruise"), detectors=("sliding_mode", "voting_monitor"), flights=100, **changes
+):
     """Report of a campaign; `changes` go to the fields of `ReportData`."""
     rows = synthetic_rows(scenarios, detectors, flights, changes.pop("lost", None))
     campaign = {"name": "demo", "about": "Which faults does each detector see, and how soon?", "benchmark": "yaw_rate"}
@@ -108,8 +126,16 @@ def synthetic_report(scenarios=(*FAULTS, "healthy_cruise"), detectors=("sliding_
         "campaign": campaign,
         "rows": rows,
         "events": frame([], EVENTS),
-        "provenance": {"fddbench": "0.1.0", "numpy": "2.4.6", "machine": "x86_64", "wall time": "94 s", "campaign": "9f" * 32},
-        "designs": [{"name": d, "kind": d, "source": "a paper", "about": "a design", "sha256": "ab" * 32} for d in detectors],
+        "provenance": {
+            "fddbench": "0.1.0",
+            "numpy": "2.4.6",
+            "machine": "x86_64",
+            "wall time": "94 s",
+            "campaign": "9f" * 32,
+        },
+        "designs": [
+            {"name": d, "kind": d, "source": "a paper", "about": "a design", "sha256": "ab" * 32} for d in detectors
+        ],
         "recordings": [synthetic_recording(rows, name, detectors) for name in scenarios if flights],
         "published": published("table8"),
     }

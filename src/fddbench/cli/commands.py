@@ -6,7 +6,7 @@ from pathlib import Path
 
 from fddbench.errors import FddbenchError, ResultsError
 
-__all__ = ["check", "init", "list_", "report", "run", "schema"]
+__all__ = ["check", "init", "list_", "report", "run", "schema", "scores"]
 
 
 def run(args: argparse.Namespace) -> int:
@@ -65,6 +65,16 @@ def report(args: argparse.Namespace) -> int:
     except OSError as error:
         raise FddbenchError(f"cannot write {output}: {error.strerror}; name another file with --output") from error
     print(output)
+    return 0
+
+
+def scores(args: argparse.Namespace) -> int:
+    """Print the scores of a folder of results as YAML, to keep under version control."""
+    from fddbench.reporting.scores import scores_text
+    from fddbench.results.folder import provenance_of
+    from fddbench.results.table import load
+
+    print(scores_text(load(args.folder), provenance_of(args.folder)), end="")
     return 0
 
 

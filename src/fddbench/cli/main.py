@@ -38,6 +38,9 @@ def parser() -> argparse.ArgumentParser:
     report.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
     report.add_argument("--output", type=Path, metavar="FILE", help="page to write (default: DIR/report.html)")
 
+    scores = _add(subs, "scores", commands.scores)
+    scores.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+
     check = _add(subs, "check", commands.check)
     _campaign(check)
 

@@ -105,6 +105,8 @@ def _curve_panel(axes: "Axes", scenario: str, flown: pd.DataFrame, order: list[s
     end_s = (1.6 if log else 1.15) * max(limit_s, last)
     if log:
         axes.set_xscale("log")
+        axes.xaxis.set_major_formatter("{x:g}")
+        axes.xaxis.set_minor_formatter("")
         axes.set_xlim(max(first, 1e-3) / 3.0, end_s)
     else:
         axes.set_xlim(0.0, end_s)
@@ -114,7 +116,7 @@ def _curve_panel(axes: "Axes", scenario: str, flown: pd.DataFrame, order: list[s
     axes.axvline(limit_s, color=WARNING, lw=1.0, ls=(0, (4, 2)))
     axes.set(ylim=(-4, 104), yticks=(0, 50, 100), title=scenario, xlabel="time after onset [s]", ylabel="detected [%]")
     for i, note in enumerate(notes):
-        place = (0.985, 0.64 - 0.13 * i)
+        place = (0.97, 0.66 - min(0.14, 0.6 / len(order)) * i)
         axes.annotate(
             note, place, xycoords="axes fraction", color=colour(i), ha="right", size=7.5, backgroundcolor="#ffffffb0"
         )

@@ -24,10 +24,11 @@ def flown_sentence(rows: pd.DataFrame) -> str:
     )
     hours = float(flights["flight_s"].sum()) / 3600.0
     flown, infeasible = int(flights["ok"].sum()), int(flights["infeasible"].sum())
-    detectors = rows["detector"].nunique()
+    number = {"flight": len(flights), "scenario": rows["scenario"].nunique(), "detector": rows["detector"].nunique()}
+    many = {name: f"{count(n)} {name}{'' if n == 1 else 's'}" for name, n in number.items()}
     return (
-        f"{count(len(flights))} flights in {rows['scenario'].nunique()} scenarios, {rate(hours)} flight hours scored "
-        f"by {detectors} detector{'s' if detectors > 1 else ''}: {count(flown)} flown, {count(infeasible)} infeasible, "
+        f"{many['flight']} in {many['scenario']}, {rate(hours)} flight hours scored by {many['detector']}: "
+        f"{count(flown)} flown, {count(infeasible)} infeasible, "
         f"{count(len(flights) - flown - infeasible)} failed in at least one detector."
     )
 

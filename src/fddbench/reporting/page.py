@@ -84,7 +84,7 @@ def _content(report: ReportData) -> dict[str, Any]:
         "published": report.published,
         "compared": compared,
         "curves": figures.detection_curves(rows),
-        "pictures": [_picture(recording, rows) for recording in report.recordings if len(recording.time_s)],
+        "pictures": [_picture(recording, rows) for recording in report.recordings if recording.cases],
         "envelope": figures.envelope(rows),
         "reasons": reasons[:_MOST_REASONS],
         "more_reasons": max(len(reasons) - _MOST_REASONS, 0),

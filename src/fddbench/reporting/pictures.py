@@ -25,6 +25,7 @@ _STYLE: Any = {
     "text.color": INK,
     "axes.edgecolor": MUTED,
     "axes.labelcolor": INK,
+    "axes.labelsize": 8,
     "axes.linewidth": 0.7,
     "axes.spines.top": False,
     "axes.spines.right": False,

@@ -39,17 +39,19 @@ def recording_picture(recording: Recording, rows: pd.DataFrame) -> str:
                 _draw_panel(axes, recording, name, signals, worst[i], kept)
                 axes.set_title(name if j == 0 else "", color=colour(i))
 
-    return to_png(draw, width_in=11.4, height_in=max(1.75 * len(detectors), 2.2) + 0.1)
+    return to_png(draw, width_in=11.4, height_in=max(1.8 * len(detectors), 2.4))
 
 
 def worst_case(recording: Recording, rows: pd.DataFrame, detector: str) -> int:
-    """Position in the recording of the case that went worst: undetected, else slowest; healthy: largest margin."""
+    """Position in the recording of the case that went worst: over-declared, undetected, slowest; healthy: largest margin."""
     chosen = rows[np.asarray((rows["scenario"] == recording.scenario) & (rows["detector"] == detector), dtype=bool)]
-    order = chosen.set_index("case").reindex(list(recording.cases))
-    time_s, margin = (
-        order[name].to_numpy(dtype=np.float64, na_value=np.nan) for name in ("detection_time_s", "margin_healthy")
-    )
-    badness = np.where(np.isnan(time_s), np.inf, time_s) if recording.onset_s is not None else np.nan_to_num(margin)
+    order = chosen[np.asarray(chosen["status"] == "ok", dtype=bool)].set_index("case").reindex(list(recording.cases))
+    faulty = recording.onset_s is not None
+    score = order["detection_time_s" if faulty else "margin_healthy"].to_numpy(dtype=np.float64, na_value=np.nan)
+    flown = np.asarray(order["status"].notna(), dtype=bool)
+    badness = np.where(flown, np.nan_to_num(score, nan=1e9 if faulty else 0.0), -np.inf)
+    over_declared = order["over_declared"].to_numpy(dtype=np.float64, na_value=np.nan) == 1.0
+    badness = np.where(over_declared, np.inf, badness)
     return int(np.argmax(badness)) if len(badness) else 0
 
 
@@ -59,17 +61,16 @@ def window(recording: Recording) -> tuple[int, int]:
     if recording.onset_s is None:
         return 0, n_time
     onset = recording.onset_s
-    changes = [
-        np.flatnonzero(
-            np.any(
-                np.abs(np.diff(np.nan_to_num(of["n_declared"]), axis=0)) * ~np.isnan(of["n_declared"][1:]) > 0, axis=1
-            )
-        )
-        for of in recording.detectors.values()
-    ]
+    changes = [_changes(of["n_declared"]) for of in recording.detectors.values()]
     last = max((float(time_s[change[-1] + 1]) for change in changes if len(change)), default=onset + 3.0)
     last = max(last, onset) + max(0.4, 0.2 * (last - onset))
     return int(np.searchsorted(time_s, onset - 1.0)), int(np.searchsorted(time_s, last, side="right"))
+
+
+def _changes(n_declared: Floats) -> Any:
+    """Return the samples before which some flight changed its verdict; a flight's end (NaN) is no change."""
+    steps = np.diff(n_declared, axis=0)
+    return np.flatnonzero(np.any(np.abs(np.nan_to_num(steps)) > 0, axis=1))
 
 
 def _panels(signals: Mapping[str, Floats]) -> Iterator[list[str]]:
@@ -103,7 +104,9 @@ def _draw_sensors(axes: "Axes", recording: Recording, names: list[str], case: in
         time_s, value = thinned(recording.time_s[kept], recording.signals[name][kept, case : case + 1])
         style: Any = ("-", (0, (4, 1.5)), (0, (1, 1)), "-.")[i]
         axes.plot(time_s, value, color=(INK, "#c58b00", "#7b5ea7", MUTED)[i], ls=style, lw=1.2, label=f"sensor {i + 1}")
-    axes.legend(loc="upper left", handlelength=1.6, borderaxespad=0.1)
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high + 0.18 * (high - low))
+    axes.legend(loc="upper left", ncols=len(names), handlelength=1.6, columnspacing=1.0, borderaxespad=0.1)
     number = recording.cases[case] if recording.cases else "none"
     axes.set(title=f"sensors, case {number}", ylabel=label(names[0].rpartition("_")[0]), xlabel="time [s]")
     _mark_onset(axes, recording, kept)

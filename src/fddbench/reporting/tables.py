@@ -51,7 +51,7 @@ def _result(line: Line) -> list[Cell]:
     exposure = f"{line['exposure_h']:.3g} h" if line["exposure_h"] else ""
     return [
         Cell(line["detector"]),
-        Cell(f"{count(line['flown'])} of {count(line['flights'])}", ", ".join(lost), alarm=bool(line["failed"])),
+        Cell(f"{count(line['flown'])} of {count(line['flights'])}", ", ".join(lost)),
         _counted(line, "over_declared", alarm=True),
         _share(line, "true_detection"),
         _counted(line, "false_alarm", alarm=True),
@@ -107,9 +107,9 @@ def _beside(median: int | None, largest: int | None, table: Published, variant: 
     row = table.row(variant, scenario)
     if row is None or row.detection_time_samples is None:
         return [Cell(DASH)] * 3
-    ratio = f"{row.normalized_detection_time:.4f} × {row.detection_time_limit_s:g} s"
+    printed = f"{count(row.detection_time_samples)} ({row.normalized_detection_time:.4f})"
     differences = [DASH if n is None else signed(n - row.detection_time_samples) for n in (median, largest)]
-    return [Cell(count(row.detection_time_samples), ratio), *map(Cell, differences)]
+    return [Cell(printed), *map(Cell, differences)]
 
 
 def _samples(time_s: Any, sample_s: float) -> int | None:
@@ -117,16 +117,24 @@ def _samples(time_s: Any, sample_s: float) -> int | None:
 
 
 def reason_lines(rows: pd.DataFrame) -> list[list[Cell]]:
-    """Scenario, status, reason, flights and rows of everything that has no score; most frequent first."""
+    """Status, reason, scenarios, flights and rows of everything that has no score; most frequent first."""
     lost = rows[np.asarray(rows["status"] != "ok", dtype=bool)]
-    keys = ["scenario", "status", "reason"]
     known = lost.assign(reason=lost["reason"].astype(object).where(lost["reason"].notna(), "no reason given"))
-    counts = known.groupby(keys, sort=False)["case"].agg(["nunique", "size"]).reset_index()
-    counts = counts.sort_values("size", ascending=False, kind="stable")
+    groups = [(key, group) for key, group in known.groupby(["status", "reason"], sort=False)]
     return [
-        [*(Cell(str(line[key])) for key in keys), Cell(count(line["nunique"])), Cell(count(line["size"]))]
-        for line in counts.to_dict("records")
+        [
+            *(Cell(str(text)) for text in key),
+            Cell(_listed(list(group["scenario"].unique()))),
+            Cell(count(group["case"].nunique())),
+            Cell(count(len(group))),
+        ]
+        for key, group in sorted(groups, key=lambda pair: -len(pair[1]))
     ]
+
+
+def _listed(names: list[str], most: int = 4) -> str:
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return ", ".join(names[:most]) + more
 
 
 def event_lines(events: pd.DataFrame) -> list[list[Cell]]:

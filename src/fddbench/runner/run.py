@@ -97,6 +97,7 @@ def run_campaign(
     with locked(folder):
         claim(folder, files=campaign.files(), provenance=_provenance(campaign), fresh=fresh)
         done = manifest.shards(folder, intact=True)
+        manifest.keep(folder, done)
         statuses = Counter[str]()
         left = missing(plan.n_cases, [shard.cases for shard in done])
         for shard in done:

@@ -65,8 +65,10 @@ def rows_and_events(assembly: Assembly, cases: Cases) -> tuple[list[Row], list[R
         if outcome is not None:
             scored = _scored(assembly, outcome, detector)
             rows += scored
-            events += _events(assembly, outcome, detector, scored)
-        rows += _infeasible(assembly, grounded, detector)
+            events += _events(assembly, flown, outcome, detector, scored)
+        left = _infeasible(assembly, grounded, detector)
+        rows += left
+        events += _events(assembly, grounded, None, detector, left)
     order = {name: i for i, name in enumerate(assembly.detectors)}
     return sorted(rows, key=lambda row: (row["case"], order[row["detector"]])), events
 
@@ -147,16 +149,16 @@ def _who(assembly: Assembly, batch: Batch, detector: str) -> list[Row]:
     return found
 
 
-def _events(assembly: Assembly, outcome: Outcome, detector: str, rows: list[Row]) -> list[Row]:
+def _events(assembly: Assembly, batch: Batch, outcome: Outcome | None, detector: str, rows: list[Row]) -> list[Row]:
     """Events of one detector: one per case and fault of scenarios whose faults are scored one by one."""
-    batch, sample_s = outcome.batch, assembly.loop.bus.sample_s
+    sample_s = assembly.loop.bus.sample_s
     found: list[Row] = []
     for i, row in enumerate(rows):
         planned = assembly.plan.scenarios[batch.scenario[i]]
-        end = min(float(planned.n_samples - 1), float(outcome.departed[i]))
         for number, fault in enumerate(planned.faults if has_events(planned) else ()):
             times: Row = {}
-            if row["status"] == "ok":
+            if outcome is not None and row["status"] == "ok":
+                end = min(float(planned.n_samples - 1), float(outcome.departed[i]))
                 times = event_columns(
                     assembly.scoring, outcome.scores[detector], batch.score_constants,
                     case=i, event=number, limit_s=planned.event_limits_s[number], end=end, sample_s=sample_s,
