@@ -51,7 +51,10 @@ def test_run_report_scores_check(tiny, capsys):
 
 def test_set_changes_the_campaign_and_its_folder_is_another(tiny, capsys):
     assert main(["run", "tiny.yaml", "--jobs", "1", "--quiet"]) == 0
-    assert main(["run", "tiny.yaml", "--jobs", "1", "--quiet", "--set", "scenarios.jam_b.faults.0.amplitude_percent=6"]) == 2
+    assert (
+        main(["run", "tiny.yaml", "--jobs", "1", "--quiet", "--set", "scenarios.jam_b.faults.0.amplitude_percent=6"])
+        == 2
+    )
     assert "amplitude_percent" in capsys.readouterr().err
     assert main(["run", "tiny.yaml", "--quiet", "--set", "seed=2", "--out", "elsewhere"]) == 0
 
@@ -79,7 +82,9 @@ def test_a_mistake_exits_with_two_and_writes_nothing(tiny, capsys, argv):
     assert "Traceback" not in message
 
 
-@pytest.mark.parametrize("argv", [["run"], ["fly"], ["run", "x.yaml", "--jobs", "0"], ["run", "x.yaml", "--jobs", "²"], []])
+@pytest.mark.parametrize(
+    "argv", [["run"], ["fly"], ["run", "x.yaml", "--jobs", "0"], ["run", "x.yaml", "--jobs", "²"], []]
+)
 def test_wrong_usage_exits_with_two(argv, capsys):
     with pytest.raises(SystemExit) as exit_:
         main(argv)
@@ -90,7 +95,9 @@ def test_wrong_usage_exits_with_two(argv, capsys):
 def test_a_failing_detector_of_ones_own_exits_with_one(tiny, capsys):
     (tiny / "detectors").mkdir()
     (tiny / "detectors" / "mine.py").write_text(
-        (gallery.folder("detectors") / "cusum_example.py").read_text().replace("distance = ", "1 / 0\n        distance = ")
+        (gallery.folder("detectors") / "cusum_example.py")
+        .read_text()
+        .replace("distance = ", "1 / 0\n        distance = ")
     )
     design = yaml.safe_load((gallery.folder("detectors") / "cusum_example.yaml").read_text())
     (tiny / "detectors" / "mine.yaml").write_text(yaml.safe_dump({**design, "kind": "mine.py:Cusum"}))
@@ -132,7 +139,9 @@ def test_every_shipped_campaign_checks(path, capsys):
 def test_help_imports_nothing_heavy():
     code = "import sys; from fddbench.cli.main import parser; parser().format_help(); print(*sys.modules)"
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
-    assert not {"numpy", "scipy", "pandas", "pyarrow", "joblib", "cvxpy", "matplotlib", "rich", "pydantic"} & set(loaded)
+    assert not {"numpy", "scipy", "pandas", "pyarrow", "joblib", "cvxpy", "matplotlib", "rich", "pydantic"} & set(
+        loaded
+    )
 
 
 def test_every_command_has_help():

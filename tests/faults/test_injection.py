@@ -36,7 +36,7 @@ def fault(name, **more):
 
 
 def zero(name, **more):
-    return fault(name, **{**{key: 0.0 for key in KINDS[name][1]}, **more})
+    return fault(name, **{**dict.fromkeys(KINDS[name][1], 0.0), **more})
 
 
 def healthy_signal(n_cases=1, seed=0, n=N):

@@ -68,10 +68,10 @@ def test_process_noise_is_the_integral_of_the_continuous_noise(sample_s, v):
 def test_variance_stays_sigma_squared_at_every_sample_time(sample_s, v):
     F, G, H = discrete(sample_s, v)
     P = stationary_start()
-    assert H @ P @ H == pytest.approx(1.0, rel=1e-12)
+    assert pytest.approx(1.0, rel=1e-12) == H @ P @ H
     for _ in range(50):
         P = F @ P @ F.T + G @ G.T
-        assert H @ P @ H == pytest.approx(1.0, rel=1e-12)
+        assert pytest.approx(1.0, rel=1e-12) == H @ P @ H
     np.testing.assert_allclose(P, stationary_start(), rtol=1e-12)
 
 
@@ -103,4 +103,4 @@ def test_sigma_scales_the_gust_and_nothing_else():
 
 def test_literature_intensities():
     assert gust.WINDS_M_S == {"none": 0.0, "light": 1.5, "moderate": 3.0, "severe": 6.0}
-    assert gust.SCALE_LENGTH_M == pytest.approx(1750 * 0.3048)
+    assert pytest.approx(1750 * 0.3048) == gust.SCALE_LENGTH_M

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from tests.runner.conftest import TEXT, write
 
 from fddbench import load
 from fddbench.campaign.load import read_campaign
@@ -13,7 +14,6 @@ from fddbench.results.table import load_events
 from fddbench.runner.assembly import assemble
 from fddbench.runner.run import run_campaign
 from fddbench.runner.work import rows_and_events
-from tests.runner.conftest import TEXT, write
 
 
 def bits(frame: pd.DataFrame) -> str:
@@ -35,7 +35,9 @@ def reference(everything, tmp_path_factory):
     return flown(everything, tmp_path_factory.mktemp("reference"), jobs=1)
 
 
-@pytest.mark.parametrize("options", [{"jobs": 2}, {"jobs": 1, "chunk": 1}, {"jobs": 2, "chunk": 7}, {"jobs": 1, "chunk": 64}])
+@pytest.mark.parametrize(
+    "options", [{"jobs": 2}, {"jobs": 1, "chunk": 1}, {"jobs": 2, "chunk": 7}, {"jobs": 1, "chunk": 64}]
+)
 def test_jobs_and_chunks_change_no_bit(everything, reference, tmp_path, options):
     rows, events = flown(everything, tmp_path / "other", **options)
     assert bits(rows) == bits(reference[0])
@@ -61,7 +63,9 @@ def _same(a: list[dict], b: list[dict]) -> bool:
     def key(row):
         return row["scenario"], row["run"], row["detector"]
 
-    return [{**row, "case": None} for row in sorted(a, key=key)] == [{**row, "case": None} for row in sorted(b, key=key)]
+    return [{**row, "case": None} for row in sorted(a, key=key)] == [
+        {**row, "case": None} for row in sorted(b, key=key)
+    ]
 
 
 @pytest.fixture(scope="module")

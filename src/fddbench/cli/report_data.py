@@ -17,7 +17,19 @@ from fddbench.runner.replay import replay, sampled_cases
 
 __all__ = ["report_data"]
 
-_SETTINGS = ("name", "about", "benchmark", "plant", "voter", "sensors", "wind", "purpose", "seed", "sample_s", "substeps")
+_SETTINGS = (
+    "name",
+    "about",
+    "benchmark",
+    "plant",
+    "voter",
+    "sensors",
+    "wind",
+    "purpose",
+    "seed",
+    "sample_s",
+    "substeps",
+)
 _SHOWN = ("r_deg_s", "r_voted_deg_s")
 _AFTER_S, _LEAST_S = 3.0, 5.0
 
