@@ -10,8 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from fddbench.blocks.functions import cos, log, sin
+from fddbench.blocks.layout import Rows
 
-__all__ = ["PER_DRAW", "normals", "philox4x32", "uniforms"]
+__all__ = ["PER_DRAW", "box_muller", "normals", "philox4x32", "uniforms"]
 
 Words = npt.NDArray[np.uint64]
 
@@ -55,7 +56,11 @@ def uniforms(counter: tuple[Any, Any, Any, Any], key: int) -> npt.NDArray[np.flo
 
 def normals(counter: tuple[Any, Any, Any, Any], key: int) -> npt.NDArray[np.float64]:
     """Four standard normal numbers per counter, (4, ...), by Box-Muller; the largest possible is 6.76 sigma."""
-    u = uniforms(counter, key)
+    return box_muller(uniforms(counter, key))
+
+
+def box_muller(u: Rows) -> Rows:
+    """Standard normal numbers, (2 n, ...), of as many uniform ones."""
     radius = np.sqrt(-2.0 * log(u[0::2]))
     angle = (2.0 * np.pi) * u[1::2]
     out = np.empty_like(u)
