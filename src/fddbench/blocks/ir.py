@@ -200,7 +200,7 @@ def _operand(body: _Body, names: dict[int, str], node: int) -> str:
     return body.out.flag(bool(value)) if op == "flag" else names[node]
 
 
-def _order(program: Program) -> list[int]:
+def _order(program: Program, known: dict[int, int]) -> list[int]:
     """Nodes depth first from the outputs, so that what is computed is used soon."""
     seen, order = set[int](), list[int]()
     for root in [node for rows in program.outputs.values() for node in rows]:
@@ -212,7 +212,8 @@ def _order(program: Program) -> list[int]:
             elif node not in seen:
                 seen.add(node)
                 stack.append((node, True))
-                stack.extend((a, False) for a in reversed(program.nodes[node].arguments) if a not in seen)
+                arguments = () if node in known else program.nodes[node].arguments
+                stack.extend((a, False) for a in reversed(arguments) if a not in seen)
     return order
 
 
@@ -222,7 +223,7 @@ def _sample(body: _Body) -> None:
     o.do("%k_word = and i64 %k, 4294967295")
     o.do("%time = sitofp i64 %k to double")
     o.do("; step")
-    for j in _order(program):
+    for j in _order(program, body.slots):
         _value(body, j)
     state = program.outputs["state"]
     values = [_value(body, node) for node in state]
