@@ -42,6 +42,7 @@ class Vectors:
     def __init__(self, lanes: int, *, rounds: bool = True) -> None:
         self.lanes, self.rounds = lanes, rounds
         self.V, self.M, self.I = f"<{lanes} x double>", f"<{lanes} x i1>", f"<{lanes} x i64>"
+        self.bytes = 8 * lanes
         self.lines: list[str] = []
         self._n = 0
 

@@ -7,7 +7,8 @@ from typing import Any, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from fddbench.blocks import ir, llvm
+from fddbench.blocks import draws, ir, llvm
+from fddbench.blocks.body import Spec
 from fddbench.blocks.interpreter import Interpreter
 from fddbench.blocks.philox import normals
 from fddbench.blocks.program import Program
@@ -144,8 +145,8 @@ class Compiled:
             raise FddbenchError(f"this processor does not run code for {target!r}")
         self.lanes = lanes or machine.lanes
         self._program, self._recorded = program, recorded
-        spec = ir.Spec(program=ir.with_draws(program), streams=streams, recorded=recorded)
-        self._slots = ir.slots_needed(spec)
+        spec = Spec(program=draws.with_draws(program), streams=streams, recorded=recorded)
+        self._slots = spec.slots
         self.text = ir.write(spec, self.lanes, rounds=machine.rounds)
         self._function: Callable[..., None] = llvm.load(self.text, machine)
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from fddbench.blocks.layout import Rows
 
-__all__ = ["OPERATIONS", "Operation", "Symbolic", "exponent", "fraction", "named", "power_of_two"]
+__all__ = ["OPERATIONS", "Operation", "Symbolic", "exponent", "fraction", "named", "pick", "power_of_two"]
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -79,6 +79,19 @@ def power_of_two(k: Rows) -> Rows:
     return ((np.asarray(k, dtype=float) + _BIASED_MAGIC).view(np.int64) << 52).view(np.float64)
 
 
+@named
+def pick(index: Rows, *rows: Rows) -> Rows:
+    """Row number `index` of the rows, each case its own; the first or last outside.
+
+    >>> pick(np.array([1.0, 0.0]), np.array([10.0, 11.0]), np.array([20.0, 21.0]))
+    array([20., 11.])
+    """
+    chosen = rows[0]
+    for j in range(1, len(rows)):
+        chosen = np.where(index >= float(j), rows[j], chosen)
+    return chosen
+
+
 @dataclass(frozen=True)
 class Operation:
     """One line of the table.
@@ -108,13 +121,6 @@ class Operation:
     result: str = "f"
 
 
-def _pick(index: Rows, *rows: Rows) -> Rows:
-    """Row number `index` of the rows, each case its own."""
-    return np.choose(np.asarray(index).astype(int), np.broadcast_arrays(*rows), mode="clip") if len(rows) < 32 else (
-        np.take_along_axis(np.stack(np.broadcast_arrays(*rows)), np.asarray(index).astype(int)[np.newaxis], 0)[0]
-    )
-
-
 OPERATIONS: dict[str, Operation] = {
     "literal": Operation("a number written in the step", 0, 0, "{value}", None),
     "flag": Operation("true or false written in the step", 0, 0, "{value}", None, "", "b"),
@@ -142,7 +148,7 @@ OPERATIONS: dict[str, Operation] = {
     "fraction": Operation("significand of a, 0.5 .. 1", 1, 2, "fdd_fraction({0})", fraction, "f"),
     "exponent": Operation("power of two of a", 1, 3, "fdd_exponent({0})", exponent, "f"),
     "power_of_two": Operation("two to the whole power a", 1, 2, "ldexp(1.0, (int){0})", power_of_two, "f"),
-    "pick": Operation("argument number a of the rest", -1, 1, "fdd_pick({0}, {rest})", _pick, "f"),
+    "pick": Operation("argument number a of the rest", -1, 1, "fdd_pick({0}, {rest})", pick, "f"),
     "sin": Operation("sine of a [rad]", 1, -1, "fdd_sin({0})", None, "f"),
     "cos": Operation("cosine of a [rad]", 1, -1, "fdd_cos({0})", None, "f"),
     "exp": Operation("exponential of a", 1, -1, "fdd_exp({0})", None, "f"),
