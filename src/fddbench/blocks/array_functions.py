@@ -6,13 +6,14 @@ from typing import Any
 
 import numpy as np
 
+from fddbench.blocks.trouble import trouble
 
 __all__ = ["CURES", "HANDLERS", "REDUCTIONS", "definition", "reduce_axis"]
 
 
 def definition(name: str) -> Callable[..., Any]:
     """The NumPy code of a named function: what its node means."""
-    from fddbench.blocks import functions  # noqa: PLC0415  (functions use the operations that are traced)
+    from fddbench.blocks import functions
 
     return vars(functions).get(name, vars(functions).get(name + "_")).__wrapped__  # type: ignore[no-any-return,union-attr]
 
@@ -24,19 +25,13 @@ def _same_kind(t: Any, values: Any) -> list[Any]:
 
 
 def _where(t: Any, condition: Any, *choices: Any) -> Any:
-    if len(choices) != 2:  # noqa: PLR2004
-        return _refuse_where()
+    if len(choices) != 2:
+        trouble("np.where with one argument has a shape that depends on data", "use np.where(condition, a, b)")
     a, b = _same_kind(t, choices)
     c = t.lift(condition).condition()
     if a.boolean:
         return (c & a) | (~c & b)
     return t.apply("select", (c, a, b))
-
-
-def _refuse_where() -> Any:
-    from fddbench.blocks.trouble import trouble  # noqa: PLC0415
-
-    return trouble("np.where with one argument has a shape that depends on data", "use np.where(condition, a, b)")
 
 
 def _several(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -86,7 +81,7 @@ def reduce_axis(value: Any, operator: Callable[[Any, Any], Any], axis: Any, *, k
 
 
 def _reduction(ufunc: np.ufunc) -> Callable[..., Any]:
-    def handler(t: Any, array: Any, axis: Any = None, out: None = None, keepdims: bool = False, **_: Any) -> Any:  # noqa: ARG001, FBT001, FBT002
+    def handler(t: Any, array: Any, axis: Any = None, out: None = None, keepdims: bool = False, **_: Any) -> Any:  # noqa: ARG001
         value = t.lift(array)
         if ufunc is np.add:
             value = value.number()
@@ -187,4 +182,3 @@ CURES: dict[Any, str] = {
     np.einsum: "use fddbench.blocks.linear.product",
     np.linalg.norm: "use np.sqrt of a sum of squares",
 }
-

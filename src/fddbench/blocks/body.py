@@ -148,7 +148,9 @@ class Body:
             return o.spread("double", "%time")
         if name == "constants":
             index = o.let(f"add i64 {o.let(f'mul i64 %n, {row}')}, %o")
-            return o.let(f"load {o.V}, ptr {o.let(f'getelementptr inbounds double, ptr %constants, i64 {index}')}, align 8")
+            return o.let(
+                f"load {o.V}, ptr {o.let(f'getelementptr inbounds double, ptr %constants, i64 {index}')}, align 8"
+            )
         draw, word = divmod(row, PER_DRAW)
         if draw not in self._words:
             self._words[draw] = draws.words(o, *self.spec.streams[draw])
@@ -195,5 +197,3 @@ class Body:
 
 def _boolean(op: str) -> bool:
     return OPERATIONS[op].result == "b"
-
-

@@ -38,7 +38,7 @@ def keys(o: Vectors) -> None:
 
 
 def words(o: Vectors, consumer: int, stream: str) -> list[str]:
-    """Four random words of every lane: Philox4x32-10 of ``%k_word``, the consumer, ``%run_words`` and the stream's words."""
+    """Four random words of every lane, Philox4x32-10 of ``%k_word``, the consumer, ``%run_words`` and the stream."""
     x0, x1, x2, x3 = o.spread("i64", "%k_word"), o.integer(consumer), "%run_words", f"%{stream}_words"
     for j in range(10):
         p0, p1 = (o.let(f"mul {o.I} {x}, {o.integer(m)}") for x, m in ((x0, _M0), (x2, _M1)))

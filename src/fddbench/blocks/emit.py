@@ -3,7 +3,6 @@
 import struct
 from typing import Any
 
-
 __all__ = ["Vectors"]
 
 _TWO52 = 4503599627370496.0
@@ -65,7 +64,7 @@ class Vectors:
         """The same 64-bit integer in every lane."""
         return f"splat (i64 {value})"
 
-    def flag(self, value: bool) -> str:  # noqa: FBT001
+    def flag(self, value: bool) -> str:
         """True or false in every lane."""
         return f"splat (i1 {'true' if value else 'false'})"
 
@@ -91,7 +90,9 @@ class Vectors:
         return self.let(_TEMPLATES[op].format(*a, V=self.V, M=self.M, W=self.lanes))
 
     def _extreme(self, comparison: str, a: str, b: str) -> str:
-        chosen = self.let(f"select {self.M} {self.let(f'fcmp {comparison} {self.V} {a}, {b}')}, {self.V} {a}, {self.V} {b}")
+        chosen = self.let(
+            f"select {self.M} {self.let(f'fcmp {comparison} {self.V} {a}, {b}')}, {self.V} {a}, {self.V} {b}"
+        )
         if a.startswith("splat"):
             return chosen
         nan = self.let(f"fcmp uno {self.V} {a}, {a}")
@@ -152,5 +153,3 @@ class Vectors:
         """Intrinsics used."""
         names = ("fabs", "sqrt", "floor", "nearbyint")
         return "\n".join(f"declare {self.V} @llvm.{name}.v{self.lanes}f64({self.V})" for name in names)
-
-

@@ -7,8 +7,8 @@ measured in the tests against mpmath-grade references.
 
 References
 ----------
-Polynomials and argument reductions: Sun Microsystems (1993), fdlibm 5.3 (k_sin.c, k_cos.c, e_log.c, e_exp.c); arc tangent
-by Moshier (1989), Cephes (atan.c).
+Polynomials and argument reductions: Sun Microsystems (1993), fdlibm 5.3 (k_sin.c, k_cos.c, e_log.c, e_exp.c); arc
+tangent by Moshier (1989), Cephes (atan.c).
 """
 
 import numpy as np
@@ -62,7 +62,7 @@ def sin(x: Rows) -> Rows:
     0.479425538604203
     """
     quadrant, sine, cosine = _sine_and_cosine(x)
-    value = np.where((quadrant == 1.0) | (quadrant == 3.0), cosine, sine)
+    value: Rows = np.where((quadrant == 1.0) | (quadrant == 3.0), cosine, sine)
     return np.where(quadrant >= 2.0, -value, value)
 
 
@@ -70,7 +70,7 @@ def sin(x: Rows) -> Rows:
 def cos(x: Rows) -> Rows:
     """Cosine of an angle [rad], |x| < 1e5; absolute error below 1.2e-16 for |x| < 100."""
     quadrant, sine, cosine = _sine_and_cosine(x)
-    value = np.where((quadrant == 1.0) | (quadrant == 3.0), sine, cosine)
+    value: Rows = np.where((quadrant == 1.0) | (quadrant == 3.0), sine, cosine)
     return np.where((quadrant == 1.0) | (quadrant == 2.0), -value, value)
 
 
@@ -123,7 +123,8 @@ def atan2(y: Rows, x: Rows) -> Rows:
     """Angle of the point (x, y) [rad], between -pi and pi; 0 at the origin; error below 2 ulp."""
     ay, ax = np.abs(y), np.abs(x)
     steep = ay > ax
-    small, large = np.where(steep, ax, ay), np.where(steep, ay, ax)
+    small: Rows = np.where(steep, ax, ay)
+    large: Rows = np.where(steep, ay, ax)
     angle = _atan_positive(small / np.where(large > 0.0, large, 1.0))
     angle = np.where(steep, np.pi / 2.0 - angle, angle)
     angle = np.where(x < 0.0, np.pi - angle, angle)

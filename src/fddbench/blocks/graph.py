@@ -1,6 +1,7 @@
 """Nodes of a program while it is being traced: equal nodes are one, and what is known is computed at once."""
 
 import struct
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -46,7 +47,7 @@ class Graph:
         """Node of a number; zeros of either sign are different."""
         return self._intern(("literal", struct.pack("d", value)), Node("literal", (), float(value)))
 
-    def flag(self, value: bool) -> int:  # noqa: FBT001
+    def flag(self, value: bool) -> int:
         """Node of true or false."""
         return self._intern(("flag", bool(value)), Node("flag", (), bool(value)))
 
@@ -132,7 +133,7 @@ def _simpler_mul(g: Graph, a: int, b: int) -> int | None:
 
 def _simpler_div(g: Graph, a: int, b: int) -> int | None:
     known = g.constant(b)
-    if known is not None and abs(np.frexp(known)[0]) == 0.5 and 1e-300 < abs(known) < 1e300:  # noqa: PLR2004
+    if known is not None and abs(np.frexp(known)[0]) == 0.5 and 1e-300 < abs(known) < 1e300:
         return g.add("mul", a, g.literal(1.0 / known))  # exact for powers of two
     return None
 
@@ -183,7 +184,7 @@ def _simpler_ne(g: Graph, a: int, b: int) -> int | None:
 
 
 _COMMUTATIVE = {"add", "mul", "eq", "ne", "and", "or"}
-_RULES = {
+_RULES: dict[str, Callable[..., int | None]] = {
     "add": _simpler_add,
     "sub": _simpler_sub,
     "mul": _simpler_mul,

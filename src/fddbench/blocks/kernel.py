@@ -22,7 +22,7 @@ Integers = npt.NDArray[np.int64]
 
 @dataclass(frozen=True, kw_only=True)
 class Addresses:
-    """Random addresses of a chunk: the campaign's key, and per case run number and stream words, (n_cases,) of 32 bits."""
+    """Random addresses of a chunk: key of the campaign; run and stream words of the cases, (n_cases,) of 32 bits."""
 
     key: int
     run: npt.ArrayLike
@@ -83,7 +83,9 @@ def build(
     if backend not in {"auto", "llvm", "numpy"}:
         raise FddbenchError(f"no back end is called {backend!r}; known: auto, llvm, numpy")
     if backend == "llvm" and not llvm.available():
-        raise FddbenchError("the back end 'llvm' needs llvmlite: pip install llvmlite, or --backend numpy (the same bits)")
+        raise FddbenchError(
+            "the back end 'llvm' needs llvmlite: pip install llvmlite, or --backend numpy (the same bits)"
+        )
     kept = program.keep("state", *(["finished"] if "finished" in program.outputs else []), *recorded)
     streams = (*((c, "flight") for c in consumers), *((c, "scenario") for c in fault_consumers))
     if backend == "numpy" or not llvm.available():

@@ -61,7 +61,9 @@ class Layout:
         if values.keys() != self.fields.keys():
             missing, unknown = self.fields.keys() - values.keys(), values.keys() - self.fields.keys()
             raise TypeError(f"need exactly the fields {list(self.fields)}, {missing=}, {unknown=}")
-        return np.concatenate([values[name] if rows else values[name][np.newaxis] for name, rows in self.fields.items()])
+        return np.concatenate(
+            [values[name] if rows else values[name][np.newaxis] for name, rows in self.fields.items()]
+        )
 
     def zeros(self, n_cases: int) -> np.ndarray:
         """State at rest, (n_rows, n_cases)."""

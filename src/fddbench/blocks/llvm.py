@@ -54,8 +54,8 @@ def available() -> bool:
 
 @cache
 def _binding() -> Any:
-    """llvmlite's binding, ready for this processor; imported at the first compilation and not before."""
-    import llvmlite.binding as binding  # noqa: PLC0415
+    """Llvmlite's binding, ready for this processor; imported at the first compilation and not before."""
+    import llvmlite.binding as binding
 
     binding.initialize_native_target()
     binding.initialize_native_asmprinter()

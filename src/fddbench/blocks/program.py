@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from fddbench.blocks.graph import Graph, Node
+from fddbench.blocks.operations import OPERATIONS
 from fddbench.blocks.traced import Traced
 from fddbench.blocks.trouble import trouble
 
@@ -78,7 +79,9 @@ def trace(function: Callable[..., Mapping[str, Any]], /, **inputs: int) -> Progr
 def _rows(value: Traced, name: str) -> tuple[int, ...]:
     """Nodes of an output, one a row."""
     if value.ndim and value.shape[-1] != 1:
-        trouble(f"output {name!r} has shape {value.shape}", "its last axis must be the case axis, of length 1 when traced")
+        trouble(
+            f"output {name!r} has shape {value.shape}", "its last axis must be the case axis, of length 1 when traced"
+        )
     return tuple(value.ids.ravel().tolist())
 
 
@@ -86,18 +89,19 @@ def prune(program: Program) -> Program:
     """The same program without the nodes that no output needs."""
     needed, nodes = [False] * len(program.nodes), program.nodes
     for rows in program.outputs.values():
-        for node in rows:
-            needed[node] = True
+        for j in rows:
+            needed[j] = True
     for j in range(len(nodes) - 1, -1, -1):
         if needed[j]:
             for argument in nodes[j].arguments:
                 needed[argument] = True
-    place, kept = {}, []
+    place: dict[int, int] = {}
+    kept: list[Node] = []
     for j, node in enumerate(nodes):
         if needed[j]:
             place[j] = len(kept)
             kept.append(Node(node.op, tuple(place[a] for a in node.arguments), node.value))
-    outputs = {name: tuple(place[node] for node in rows) for name, rows in program.outputs.items()}
+    outputs = {name: tuple(place[j] for j in rows) for name, rows in program.outputs.items()}
     return Program(program.inputs, tuple(kept), outputs)
 
 
@@ -128,8 +132,6 @@ def expand(program: Program, replace: Callable[[Graph, str, int], int | None] | 
 
 def _scalar(graph: Graph, op: str, arguments: tuple[Traced, ...]) -> int:
     """Node of one operation; composites by running their definition."""
-    from fddbench.blocks.operations import OPERATIONS  # noqa: PLC0415
-
     if OPERATIONS[op].numpy is not None:
         return graph.add(op, *(int(argument.ids) for argument in arguments))
     return int(arguments[0].apply(op, arguments).ids)

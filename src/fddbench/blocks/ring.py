@@ -11,8 +11,8 @@ __all__ = ["ring"]
 def ring(rows: Rows, value: Rows, sample: Rows) -> tuple[Rows, Rows]:
     """Rows after writing, and what was written ``len(rows)`` samples ago (what the rows started with, before that).
 
-    Compiled, a ring whose rows are consecutive state rows, in and out, is addressed by the sample number; otherwise each
-    row is compared with it.
+    Compiled, a ring whose rows are consecutive state rows, in and out, is addressed by the sample number; otherwise
+    each row is compared with it.
 
     Parameters
     ----------

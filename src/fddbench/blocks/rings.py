@@ -31,7 +31,7 @@ class Ring:
 def _state_row(program: Program, node: int) -> int:
     """Row of a state input, else -1."""
     op, _, value = program.nodes[node]
-    return value[1] if op == "input" and value[0] == "state" else -1  # type: ignore[index,return-value]
+    return value[1] if op == "input" and value[0] == "state" else -1  # type: ignore[index]
 
 
 def reads(program: Program) -> dict[int, Ring]:
@@ -56,7 +56,7 @@ def writes(program: Program) -> list[Ring]:
         for index, turn in (compared, compared[::-1]) if test == "eq" else ():
             place = program.nodes[turn].value
             if program.nodes[turn].op == "literal" and uniform[index] and float(place).is_integer():  # type: ignore[arg-type]
-                turns[index, arguments[1], row - int(place)].add(int(place))  # type: ignore[arg-type,call-overload]
+                turns[index, arguments[1], row - int(place)].add(int(place))  # type: ignore[arg-type]
     return [
         Ring(index, first, len(places), value)
         for (index, value, first), places in turns.items()

@@ -93,15 +93,15 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
         ids = [self.graph.add("number", int(node)) for node in self.ids.ravel()]
         return self.like(np.array(ids, dtype=np.int64).reshape(self.shape), boolean=False)
 
-    def condition(self) -> "Traced":
+    def condition(self) -> Any:
         """Itself, numbers compared with 0."""
-        return self if self.boolean else ufuncs.apply(np.not_equal, self, (self, 0.0))  # type: ignore[no-any-return]
+        return self if self.boolean else ufuncs.apply(np.not_equal, self, (self, 0.0))
 
     # --- operations ---
-    def apply(self, name: str, arguments: tuple[Any, ...]) -> "Traced":
+    def apply(self, name: str, arguments: tuple[Any, ...]) -> Any:
         """Operation `name` of the table on every element, operands broadcast as by NumPy."""
         if self.graph.expand and OPERATIONS[name].numpy is None:
-            return array_functions.definition(name)(*arguments)  # type: ignore[no-any-return]
+            return array_functions.definition(name)(*arguments)
         operation, lifted = OPERATIONS[name], [self.lift(argument) for argument in arguments]
         kinds = operation.arguments if operation.arity >= 0 else "f" * len(lifted)
         if any(kind == "b" and not value.boolean for kind, value in zip(kinds, lifted, strict=True)):
@@ -127,13 +127,13 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
         out[0][...] = result
         return out[0]
 
-    def __array_function__(self, func: Any, types: Any, args: Any, kwargs: Any) -> Any:  # noqa: ARG002
+    def __array_function__(self, func: Any, types: Any, args: Any, kwargs: Any) -> Any:
         """Whatever NumPy's array functions do, for those in `array_functions`."""
         handler = array_functions.HANDLERS.get(func)
         if handler is None:
             trouble(f"np.{func.__name__} is not among the functions that can be traced",
                     array_functions.CURES.get(func, "write it with + - * / and np.where"))  # fmt: skip
-        return handler(self, *args, **kwargs)  # type: ignore[misc]
+        return handler(self, *args, **kwargs)
 
     # --- indexing ---
     def __getitem__(self, key: Any) -> "Traced":
@@ -171,46 +171,48 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
             trouble("a traced number cannot become an integer", "use np.floor or np.rint and stay with floats")
         return self.number().copy() if wanted in "fiu" else trouble(f"astype({kind})", "stay with float and bool")
 
-    def sum(self, axis: Any = None, **options: Any) -> "Traced":
+    def sum(self, axis: Any = None, **options: Any) -> Any:
         """Sum left to right; of true and false, how many are true."""
-        return np.sum(self, axis=axis, **options)  # type: ignore[call-overload,no-any-return]
+        return np.sum(self, axis=axis, **options)
 
-    def max(self, axis: Any = None, **options: Any) -> "Traced":
+    def max(self, axis: Any = None, **options: Any) -> Any:
         """Largest."""
-        return np.max(self, axis=axis, **options)  # type: ignore[call-overload,no-any-return]
+        return np.max(self, axis=axis, **options)
 
-    def min(self, axis: Any = None, **options: Any) -> "Traced":
+    def min(self, axis: Any = None, **options: Any) -> Any:
         """Smallest."""
-        return np.min(self, axis=axis, **options)  # type: ignore[call-overload,no-any-return]
+        return np.min(self, axis=axis, **options)
 
-    def any(self, axis: Any = None, **options: Any) -> "Traced":
+    def any(self, axis: Any = None, **options: Any) -> Any:
         """Whether one is true."""
-        return np.any(self, axis=axis, **options)  # type: ignore[call-overload,return-value]
+        return np.any(self, axis=axis, **options)
 
-    def all(self, axis: Any = None, **options: Any) -> "Traced":
+    def all(self, axis: Any = None, **options: Any) -> Any:
         """Whether all are true."""
-        return np.all(self, axis=axis, **options)  # type: ignore[call-overload,return-value]
+        return np.all(self, axis=axis, **options)
 
-    def clip(self, low: Any, high: Any) -> "Traced":
+    def clip(self, low: Any, high: Any) -> Any:
         """Between two limits."""
-        return np.minimum(np.maximum(self, low), high)  # type: ignore[no-any-return]
+        return np.minimum(np.maximum(self, low), high)
 
     # --- what cannot be ---
-    def __bool__(self) -> bool:
+    def __bool__(self) -> bool:  # noqa: PLE0304  (never returns)
         trouble("an `if`, `and`, `or`, `not` or `while` depends on a traced value", _IF)
 
     def __float__(self) -> float:
         trouble("a traced value was turned into a Python number or written into a plain array",
-                "use functions of fddbench.blocks.functions, and np.stack or np.concatenate to build arrays")  # fmt: skip
+                "use functions of fddbench.blocks.functions, and np.stack or np.concatenate")  # fmt: skip
 
     def __int__(self) -> int:
         trouble("a traced value was turned into a Python integer", "use np.floor or np.rint and stay with floats")
 
-    def __index__(self) -> int:
+    def __index__(self) -> int:  # noqa: PLE0305  (never returns)
         trouble("a traced value is used as an index", "use blocks.functions.interpolate or np.where over the rows")
 
     def __array__(self, *_: Any, **__: Any) -> Any:
-        trouble("a NumPy function wants the numbers of a traced value", "use functions that NumPy dispatches, or np.where")
+        trouble(
+            "a NumPy function wants the numbers of a traced value", "use functions that NumPy dispatches, or np.where"
+        )
 
 
 def _static(key: Any) -> Any:

@@ -29,7 +29,7 @@ class TraceError(FddbenchError):
 
 def trouble(problem: str, cure: str) -> NoReturn:
     """Raise the error, with the innermost line that is neither ours nor NumPy's."""
-    frame = sys._getframe(1)  # noqa: SLF001
+    frame = sys._getframe(1)
     while frame.f_back is not None and frame.f_code.co_filename.startswith((*_OURS, "<")):
         frame = frame.f_back
     raise TraceError(f"{frame.f_code.co_filename}:{frame.f_lineno}", problem, cure)

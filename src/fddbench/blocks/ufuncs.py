@@ -19,7 +19,7 @@ _PLAIN = {
 
 _OF_BOOLEANS = {np.add: "or", np.multiply: "and", np.minimum: "and", np.maximum: "or"}
 
-_DERIVED: dict[np.ufunc, Callable[..., Any]] = {
+_DERIVED: dict[Any, Callable[..., Any]] = {
     np.greater: lambda a, b: np.less(b, a),
     np.greater_equal: lambda a, b: np.less_equal(b, a),
     np.positive: lambda a: a * 1.0,
@@ -85,7 +85,9 @@ def apply(ufunc: np.ufunc, traced: Any, inputs: tuple[Any, ...]) -> Any:
     if ufunc is np.matmul:
         return _matmul(*lifted)
     if ufunc not in _DERIVED:
-        trouble(f"np.{ufunc.__name__} is not in the operation set", _CURES.get(ufunc, "write it with + - * / and np.where"))
+        trouble(
+            f"np.{ufunc.__name__} is not in the operation set", _CURES.get(ufunc, "write it with + - * / and np.where")
+        )
     return _DERIVED[ufunc](*lifted)
 
 
@@ -98,8 +100,11 @@ def _power(base: Any, power: Any) -> Any:
 
 def _matmul(a: Any, b: Any) -> Any:
     """Matrix product of two 2-D values, each element summed left to right."""
-    if a.ndim != 2 or b.ndim != 2:  # noqa: PLR2004
-        trouble(f"@ of shapes {a.shape} and {b.shape}", "keep the case axis: (n, m) @ (m, n_cases), or blocks.linear.product")
+    if a.ndim != 2 or b.ndim != 2:
+        trouble(
+            f"@ of shapes {a.shape} and {b.shape}",
+            "keep the case axis: (n, m) @ (m, n_cases), or blocks.linear.product",
+        )
     rows: Any = a[:, 0][:, np.newaxis] * b[0]
     for j in range(1, a.shape[1]):
         rows = rows + a[:, j][:, np.newaxis] * b[j]
