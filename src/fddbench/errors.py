@@ -8,7 +8,15 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
 
-__all__ = ["CampaignError", "DesignError", "FddbenchError", "Mistake", "ResultsError", "UnknownNameError", "did_you_mean"]
+__all__ = [
+    "CampaignError",
+    "DesignError",
+    "FddbenchError",
+    "Mistake",
+    "ResultsError",
+    "UnknownNameError",
+    "did_you_mean",
+]
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:

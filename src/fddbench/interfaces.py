@@ -14,7 +14,20 @@ import numpy.typing as npt
 
 from fddbench.blocks.layout import Layout, Rows
 
-__all__ = ["Benchmark", "Bus", "Detector", "Flights", "Floats", "Loop", "Options", "Parameter", "Recording", "Start", "Verdict", "Voter"]
+__all__ = [
+    "Benchmark",
+    "Bus",
+    "Detector",
+    "Flights",
+    "Floats",
+    "Loop",
+    "Options",
+    "Parameter",
+    "Recording",
+    "Start",
+    "Verdict",
+    "Voter",
+]
 
 Floats = npt.NDArray[np.float64]
 
@@ -163,6 +176,13 @@ class Loop(Protocol):
     fault_consumers: tuple[int, ...]
     start_consumers: tuple[int, ...]
     truth: tuple[str, ...]
+
+    def fault_rows(self, faults: Sequence[Any], phases: Floats) -> Floats:
+        """Data rows of the faults of one scenario, (n_fault_rows, n_cases).
+
+        `phases`, (n_fault_slots, n_sites, n_cases), are uniform numbers in (0, 1) for faults that draw their phase.
+        """
+        ...
 
     def start(self, flights: Flights) -> Start:
         """State and constants before sample 0; vectorised, may iterate (trim)."""

@@ -38,7 +38,7 @@ _MORE_BITS = 6.123233995736765886130e-17
 
 def _horner(coefficients: tuple[float, ...], x: Rows) -> Rows:
     """Polynomial, highest power first."""
-    value = coefficients[0]
+    value: Rows = coefficients[0]
     for coefficient in coefficients[1:]:
         value = value * x + coefficient
     return value
@@ -109,7 +109,8 @@ def pow_(x: Rows, y: float) -> Rows:
 
 def _atan_positive(x: Rows) -> Rows:
     """Arc tangent of a non-negative number [rad]; error below 1 ulp."""
-    large, middle = x > _TAN_3PI_8, x > 0.66
+    large: Rows = x > _TAN_3PI_8
+    middle: Rows = x > 0.66
     reduced = np.where(large, -1.0 / np.where(large, x, 1.0), np.where(middle, (x - 1.0) / (x + 1.0), x))
     base = np.where(large, np.pi / 2.0, np.where(middle, np.pi / 4.0, 0.0))
     more = np.where(large, _MORE_BITS, np.where(middle, 0.5 * _MORE_BITS, 0.0))

@@ -1,0 +1,164 @@
+"""What a campaign would do, in words and numbers, before it burns an hour of two processors."""
+
+from collections.abc import Iterator
+from math import ceil
+from textwrap import fill
+from typing import Any
+
+from fddbench.campaign.designs import Design
+from fddbench.campaign.meaning import Campaign
+from fddbench.campaign.model import Dispersions, Distribution
+from fddbench.campaign.plan import Plan, PlannedScenario
+from fddbench.faults.specification import FaultSpecification
+
+__all__ = ["describe", "estimated_seconds"]
+
+_BYTES_PER_ROW = 60
+_BYTES_PER_FOLDER = 200_000
+_WIDTH = 100
+_SECONDS = ((86_400.0, "d"), (3600.0, "h"), (60.0, "min"))
+_COMMON = frozenset({"kind", "mode", "sites", "onset_s", "end_s", "correlation", "delay_s"})
+
+
+def estimated_seconds(
+    plan: Plan, *, seconds_per_flight_step: float = 1e-6, overhead_s: float = 1e-3, chunk: int = 256, jobs: int = 2
+) -> float:
+    """Wall time of a campaign [s], without start-up.
+
+    Parameters
+    ----------
+    seconds_per_flight_step : float
+        Processor time per sample of one flight [s]; the NumPy path does a million a second.
+    overhead_s : float
+        Processor time per sample of a chunk, whatever its size [s].
+    chunk, jobs : int
+        Flights stepped together, and processes.
+    """
+    busy = sum(
+        scenario.n_samples * (scenario.n_runs * seconds_per_flight_step + ceil(scenario.n_runs / chunk) * overhead_s)
+        for scenario in plan.scenarios
+    )
+    return busy / jobs
+
+
+def describe(
+    plan: Plan, *, seconds_per_flight_step: float = 1e-6, overhead_s: float = 1e-3, chunk: int = 256, jobs: int = 2
+) -> str:
+    """Text of what would run: the question, the scenarios, the dispersions, the designs, the bill."""
+    seconds = estimated_seconds(
+        plan, seconds_per_flight_step=seconds_per_flight_step, overhead_s=overhead_s, chunk=chunk, jobs=jobs
+    )
+    return "\n".join([*_head(plan.campaign), "", *_table(plan), "", *_rest(plan), "", *_bill(plan, seconds, jobs)])
+
+
+def _head(campaign: Campaign) -> Iterator[str]:
+    yield f"Campaign {campaign.name} ({campaign.path})"
+    if campaign.about:
+        yield fill(" ".join(campaign.about.split()), _WIDTH, initial_indent="  ", subsequent_indent="  ")
+    yield (
+        f"Benchmark {campaign.benchmark}, plant {campaign.plant}, voter {campaign.voter}, sensors {campaign.sensors}, "
+        f"wind {campaign.wind}"
+    )
+    substeps = f", {campaign.substeps} integration steps each" if campaign.substeps > 1 else ""
+    yield f"Purpose {campaign.purpose}, seed {campaign.seed}, sample {campaign.sample_s:g} s{substeps}"
+
+
+def _table(plan: Plan) -> Iterator[str]:
+    lines = [("scenario", "manoeuvre", "flights", "length", "limit", "faults")]
+    lines += [_line(scenario) for scenario in plan.scenarios]
+    widths = [max(len(line[column]) for line in lines) for column in range(len(lines[0]))]
+    for line in lines:
+        name, manoeuvre, *numbers, faults = line
+        cells = [name.ljust(widths[0]), manoeuvre.ljust(widths[1])]
+        cells += [text.rjust(width) for text, width in zip(numbers, widths[2:5], strict=True)]
+        yield "  " + "  ".join([*cells, faults]).rstrip()
+    short = [scenario.name for scenario in plan.scenarios if _ends_before_limit(scenario, plan.campaign.sample_s)]
+    if short:
+        text = f"Undetected faults are censored, not missed, where the flight ends before its limit: {', '.join(short)}"
+        yield fill(text, _WIDTH)
+
+
+def _ends_before_limit(scenario: PlannedScenario, sample_s: float) -> bool:
+    if scenario.k0 is None or scenario.limit_s is None:
+        return False
+    return (scenario.n_samples - 1 - scenario.k0) * sample_s < scenario.limit_s - sample_s / 2.0
+
+
+def _line(scenario: PlannedScenario) -> tuple[str, str, str, str, str, str]:
+    faults = "; ".join(map(_fault, scenario.faults)) or "none"
+    limit = "-" if scenario.limit_s is None else f"{scenario.limit_s:g} s"
+    return scenario.name, scenario.manoeuvre, f"{scenario.n_runs:,}", f"{scenario.duration_s:g} s", limit, faults
+
+
+def _fault(fault: FaultSpecification) -> str:
+    sizes = fault.model_dump(exclude_defaults=True, exclude=set(_COMMON))
+    words = [fault.kind, *(f"{key}={_short(value)}" for key, value in sizes.items())]
+    words += [fault.mode] if fault.mode != "add" else []
+    words += [f"on {'+'.join(fault.sites)} at {fault.onset_s:g} s"]
+    words += [fault.correlation] if len(fault.sites) > 1 else []
+    words += [f"delayed by {fault.delay_s:g} s"] if fault.delay_s else []
+    words += [f"until {fault.end_s:g} s"] if fault.end_s is not None else []
+    return " ".join(words)
+
+
+def _short(value: Any) -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _rest(plan: Plan) -> Iterator[str]:
+    yield from _dispersions(plan.campaign.dispersions)
+    yield "Detectors"
+    for design in plan.campaign.designs:
+        yield from _design(design)
+
+
+def _dispersions(dispersions: Dispersions) -> Iterator[str]:
+    parts = [f"grid of {name}: {_values(values)}" for name, values in sorted(dispersions.grid.items())]
+    parts += [f"in sequence {name}: {_values(values)}" for name, values in dispersions.sequence.items()]
+    if dispersions.monte_carlo:
+        drawn = dispersions.monte_carlo
+        parts += [f"{drawn.runs:,} Monte-Carlo runs"]
+        parts += [f"{name} {_distribution(value)}" for name, value in drawn.parameters.items()]
+    yield "Dispersed" if parts else "No dispersions: every flight has the benchmark's default parameters"
+    yield from (f"  {part}" for part in parts)
+
+
+def _values(values: tuple[float, ...]) -> str:
+    few = values if len(values) <= 6 else values[:3]
+    return ", ".join(f"{value:g}" for value in few) + ("" if few is values else f", … {values[-1]:g} ({len(values)})")
+
+
+def _distribution(distribution: Distribution) -> str:
+    if distribution.uniform is not None:
+        return "uniform in {:g} to {:g}".format(*distribution.uniform)
+    window = distribution.truncated_normal
+    bell = window or distribution.normal
+    assert bell is not None
+    edges = f", within {window.low:g} to {window.high:g}" if window else ""
+    return f"normal, mean {bell.mean:g}, std {bell.std:g}{edges}"
+
+
+def _design(design: Design) -> Iterator[str]:
+    seen = ", ".join(f"{entry.campaign} seed {entry.seed}" for entry in design.tuned_on) or "no campaign"
+    text = f"{design.name} ({design.kind}): {' '.join(design.source.split()).rstrip('.')}; tuned on {seen}"
+    yield fill(text, _WIDTH, initial_indent="  ", subsequent_indent="    ")
+
+
+def _bill(plan: Plan, seconds: float, jobs: int) -> Iterator[str]:
+    n = len(plan.campaign.designs)
+    flown = sum(scenario.n_runs * scenario.duration_s for scenario in plan.scenarios)
+    disk = plan.n_rows * _BYTES_PER_ROW + _BYTES_PER_FOLDER
+    rows = f"{plan.n_cases:,} cases x {n} detector{'s' if n > 1 else ''} = {plan.n_rows:,} rows"
+    yield f"{rows}, {flown / 3600:.4g} h of flight"
+    yield f"About {_duration(seconds)} with {jobs} jobs, and {_size(disk)} on disk"
+
+
+def _duration(seconds: float) -> str:
+    for length, unit in _SECONDS:
+        if seconds >= length:
+            return f"{seconds / length:.2g} {unit}"
+    return f"{max(seconds, 1.0):.0f} s"
+
+
+def _size(n_bytes: float) -> str:
+    return f"{n_bytes / 1e9:.1f} GB" if n_bytes >= 1e9 else f"{n_bytes / 1e6:.1f} MB"

@@ -1,0 +1,179 @@
+"""The keys of a campaign file and what values they take."""
+
+from typing import Annotated, Any, Literal, get_type_hints
+
+from pydantic import BaseModel, ConfigDict, Field
+
+__all__ = [
+    "CampaignFile",
+    "Dispersions",
+    "Distribution",
+    "MonteCarlo",
+    "Name",
+    "Normal",
+    "Purpose",
+    "ScenarioEntry",
+    "TruncatedNormal",
+]
+
+NAME_PATTERN = "^[A-Za-z0-9][A-Za-z0-9._-]{0,63}$"
+LONGEST_FLIGHT_S = 86_400.0
+MOST_FAULTS = 8
+
+Name = Annotated[str, Field(pattern=NAME_PATTERN)]
+Number = Annotated[float, Field(allow_inf_nan=False)]
+Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
+Duration = Annotated[float, Field(gt=0.0, le=LONGEST_FLIGHT_S)]
+Count = Annotated[int, Field(ge=1)]
+Seed = Annotated[int, Field(ge=0, le=2**64 - 1)]
+Values = Annotated[tuple[Number, ...], Field(min_length=1)]
+Purpose = Literal["tuning", "evaluation"]
+
+
+class Strict(BaseModel):
+    """Refuses unknown keys, and words where numbers belong."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Normal(Strict):
+    """A bell curve.
+
+    Attributes
+    ----------
+    mean, std : float
+        In the unit of the parameter.
+    """
+
+    mean: Number
+    std: Positive
+
+
+class TruncatedNormal(Normal):
+    """A bell curve, drawn again until it falls into a window.
+
+    Attributes
+    ----------
+    low, high : float
+        The window, in the unit of the parameter.
+    """
+
+    low: Number
+    high: Number
+
+
+class Distribution(Strict):
+    """How a parameter is drawn; one of the three.
+
+    Attributes
+    ----------
+    uniform : (low, high)
+        In the unit of the parameter.
+    normal, truncated_normal : mapping
+        In the unit of the parameter.
+    """
+
+    uniform: Annotated[tuple[Number, ...], Field(min_length=2, max_length=2)] | None = None
+    normal: Normal | None = None
+    truncated_normal: TruncatedNormal | None = None
+
+
+class MonteCarlo(BaseModel):
+    """Flights drawn at random; every key besides `runs` is a parameter.
+
+    Attributes
+    ----------
+    runs : int
+        Draws for each point of grid and sequence.
+    """
+
+    model_config = ConfigDict(extra="allow", frozen=True)
+    __pydantic_extra__: dict[str, Distribution]
+
+    runs: Count
+
+    @property
+    def parameters(self) -> dict[str, Distribution]:
+        """Distribution by name of the parameter."""
+        return dict(self.__pydantic_extra__ or {})
+
+
+class Dispersions(Strict):
+    """What differs from flight to flight.
+
+    Attributes
+    ----------
+    grid : mapping of parameter to values
+        Every combination is flown.
+    sequence : mapping of parameter to values
+        Lists of one length, walked together.
+    monte_carlo : MonteCarlo
+        Drawn at random.
+    """
+
+    grid: dict[str, Values] = {}
+    sequence: dict[str, Values] = {}
+    monte_carlo: MonteCarlo | None = None
+
+
+class ScenarioEntry(Strict):
+    """A manoeuvre and the faults injected in it.
+
+    Attributes
+    ----------
+    runs : int
+        Instead of ``dispersions.monte_carlo.runs``.
+    duration_s, detection_time_limit_s : float
+        Instead of what the benchmark says [s].
+    """
+
+    name: Name
+    manoeuvre: str
+    faults: Annotated[tuple[dict[str, Any], ...], Field(max_length=MOST_FAULTS)] = ()
+    runs: Count | None = None
+    duration_s: Duration | None = None
+    detection_time_limit_s: Positive | None = None
+
+
+class CampaignFile(Strict):
+    """A campaign as it is written.
+
+    Attributes
+    ----------
+    plant, voter, sensors, wind : str
+        Choices of the benchmark; its first ones by default.
+    purpose : {"evaluation", "tuning"}
+        Tuning and evaluation never share a flight.
+    seed : int
+        Key of all random numbers, 0 to 2^64 - 1.
+    sample_s : float
+        Clock of sensors, detectors and scoring [s].
+    substeps : int
+        Integration steps in a sample.
+    duration_s : float
+        Length of every flight [s]; a scenario may say otherwise.
+    detectors : tuple of str
+        Names of designs, files in ``detectors/``.
+    """
+
+    name: Name
+    about: str = ""
+    benchmark: str
+    plant: str | None = None
+    voter: str | None = None
+    sensors: str | None = None
+    wind: str | None = None
+    purpose: Purpose = "evaluation"
+    seed: Seed
+    sample_s: Annotated[float, Field(ge=1e-4, le=0.1)] = 0.01
+    substeps: Annotated[int, Field(ge=1, le=1000)] = 1
+    duration_s: Duration | None = None
+    scenarios: Annotated[tuple[ScenarioEntry, ...], Field(min_length=1)]
+    dispersions: Dispersions = Dispersions()
+    detectors: Annotated[tuple[Name, ...], Field(min_length=1)]
+
+
+def extra_hint(model: type[BaseModel]) -> Any:
+    """Annotation of the values of keys that a model does not name, or None."""
+    hint = get_type_hints(model).get("__pydantic_extra__")
+    return getattr(hint, "__args__", (None, None))[1] if model.model_config.get("extra") == "allow" else None

@@ -1,0 +1,77 @@
+"""Dispersed values that a benchmark flies, and distributions that can be drawn."""
+
+from collections.abc import Iterator
+from math import erf, sqrt
+
+from fddbench.campaign.document import Address, Document
+from fddbench.campaign.model import CampaignFile, Distribution, TruncatedNormal
+from fddbench.campaign.wording import unit_of
+from fddbench.errors import Mistake
+from fddbench.interfaces import Benchmark, Parameter
+
+__all__ = ["ranges"]
+
+_LEAST_PROBABILITY = 0.1
+"""Of a truncated normal's window: what is drawn again more than ten times on average was meant otherwise."""
+
+
+def ranges(document: Document, written: CampaignFile, benchmark: Benchmark) -> Iterator[Mistake]:
+    """Every dispersed value that the benchmark does not fly, and every distribution that cannot be drawn."""
+    known = {entry.name: entry for entry in benchmark.parameters}
+    dispersions = written.dispersions
+    for block, lists in (("grid", dispersions.grid), ("sequence", dispersions.sequence)):
+        for name, values in lists.items():
+            for number, value in enumerate(values):
+                yield from _outside(document, ("dispersions", block, name, number), value, known[name])
+    lengths = {name: len(values) for name, values in dispersions.sequence.items()}
+    if len(set(lengths.values())) > 1:
+        counts = ", ".join(f"{name} has {n}" for name, n in lengths.items())
+        message = f"the lists of a sequence are walked together and need one length: {counts}"
+        yield document.mistake(("dispersions", "sequence"), message, key=True)
+    if dispersions.monte_carlo:
+        for name, distribution in dispersions.monte_carlo.parameters.items():
+            yield from _distribution(document, ("dispersions", "monte_carlo", name), distribution, known[name])
+
+
+def _outside(document: Document, address: Address, value: float, parameter: Parameter) -> Iterator[Mistake]:
+    if not parameter.low <= value <= parameter.high:
+        unit = unit_of((parameter.name,))
+        message = f"{parameter.name} must be within {parameter.low:g} to {parameter.high:g}{unit}, got {value:g}"
+        yield document.mistake(address, message)
+
+
+def _distribution(
+    document: Document, address: Address, distribution: Distribution, parameter: Parameter
+) -> Iterator[Mistake]:
+    given = sorted(distribution.model_fields_set)
+    if len(given) != 1 or getattr(distribution, given[0]) is None:
+        got = " and ".join(given) or "none"
+        yield document.mistake(
+            address, f"need one of uniform, normal, truncated_normal for {parameter.name}, got {got}"
+        )
+        return
+    at = (*address, given[0])
+    window = distribution.truncated_normal
+    if distribution.normal is not None:
+        yield from _outside(document, (*at, "mean"), distribution.normal.mean, parameter)
+        return
+    low, high = (window.low, window.high) if window else distribution.uniform or (parameter.low, parameter.high)
+    names: tuple[str | int, str | int] = ("low", "high") if window else (0, 1)
+    yield from _outside(document, (*at, names[0]), low, parameter)
+    yield from _outside(document, (*at, names[1]), high, parameter)
+    if not low < high:
+        yield document.mistake(at, f"low must lie below high, got low {low:g} and high {high:g}")
+    elif window is not None:
+        yield from _improbable(document, at, window)
+
+
+def _improbable(document: Document, address: Address, window: TruncatedNormal) -> Iterator[Mistake]:
+    below = [0.5 + 0.5 * erf((edge - window.mean) / (window.std * sqrt(2.0))) for edge in (window.low, window.high)]
+    probability = below[1] - below[0]
+    if probability < _LEAST_PROBABILITY:
+        message = (
+            f"the window {window.low:g} to {window.high:g} holds {100.0 * probability:.2g} % of the normal "
+            f"distribution, needs at least {100.0 * _LEAST_PROBABILITY:g} %; widen it, move the mean into it or draw "
+            "uniform: [low, high]"
+        )
+        yield document.mistake(address, message)

@@ -1,0 +1,117 @@
+"""Parameters of a flight: a pure function of the seed and of the run's number."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from fddbench.blocks.consumers import DISPERSION, MAX_ATTEMPTS
+from fddbench.blocks.philox import normals, uniforms
+from fddbench.campaign.model import Dispersions, Distribution, Purpose, TruncatedNormal
+from fddbench.campaign.streams import flight_stream, name_word
+from fddbench.interfaces import Floats, Parameter
+
+__all__ = ["Runs", "count", "digits", "parameters"]
+
+Runs = npt.NDArray[np.int64]
+
+
+def count(dispersions: Dispersions, *, monte_carlo_runs: int | None = None) -> tuple[int, ...]:
+    """Radix of every digit of a run's number, slowest first; their product is the number of runs.
+
+    The digits are the parameters of the grid in alphabetical order, the sequence, and the Monte-Carlo draws, so that
+    the order of keys in a file means nothing. Exact for any size: nothing is expanded.
+
+    Parameters
+    ----------
+    monte_carlo_runs : int or None
+        Instead of ``monte_carlo.runs``.
+
+    Examples
+    --------
+    >>> count(Dispersions(grid={"h_ft": (0.0, 1e4), "mass_kg": (1.0, 2.0, 3.0)}), monte_carlo_runs=5)
+    (2, 3, 1, 5)
+    """
+    grid = tuple(len(dispersions.grid[name]) for name in sorted(dispersions.grid))
+    sequence = max((len(values) for values in dispersions.sequence.values()), default=1)
+    written = dispersions.monte_carlo.runs if dispersions.monte_carlo else 1
+    return (*grid, sequence, monte_carlo_runs or written)
+
+
+def digits(runs: Runs, radices: Sequence[int]) -> list[Runs]:
+    """Digits of run numbers in a mixed radix, slowest first; each (n,).
+
+    >>> [digit.tolist() for digit in digits(np.array([0, 1, 5]), (2, 3))]
+    [[0, 0, 1], [0, 1, 2]]
+    """
+    found: list[Runs] = []
+    rest = np.asarray(runs, dtype=np.int64)
+    for radix in reversed(radices):
+        rest, digit = np.divmod(rest, radix)
+        found.append(digit)
+    return found[::-1]
+
+
+def parameters(
+    dispersions: Dispersions,
+    benchmark_parameters: Sequence[Parameter],
+    *,
+    key: int,
+    purpose: Purpose,
+    runs: Runs,
+    monte_carlo_runs: int | None = None,
+) -> dict[str, Floats]:
+    """Parameters of flights, true values, each (n,) in the unit of its name.
+
+    A parameter's draw has the counter (hash of its name, attempt, run, stream of the purpose): adding a parameter,
+    reordering keys or asking for other runs changes no draw.
+
+    Parameters
+    ----------
+    benchmark_parameters : sequence of Parameter
+        All that a flight needs; those the campaign does not disperse have their default.
+    key : int
+        Seed of the campaign.
+    runs : (n,) integers
+        Numbers of the runs in their scenario.
+    monte_carlo_runs : int or None
+        Instead of ``monte_carlo.runs``.
+    """
+    runs = np.asarray(runs, dtype=np.int64)
+    *grid, sequence, _ = digits(runs, count(dispersions, monte_carlo_runs=monte_carlo_runs))
+    found = {entry.name: np.full(len(runs), float(entry.default)) for entry in benchmark_parameters}
+    for name, digit in zip(sorted(dispersions.grid), grid, strict=True):
+        found[name] = np.asarray(dispersions.grid[name], dtype=float)[digit]
+    for name, values in dispersions.sequence.items():
+        found[name] = np.asarray(values, dtype=float)[sequence]
+    if dispersions.monte_carlo:
+        for name, distribution in dispersions.monte_carlo.parameters.items():
+            found[name] = _draw(distribution, name, key=key, stream=flight_stream(purpose), runs=runs)
+    return found
+
+
+def _draw(distribution: Distribution, name: str, *, key: int, stream: int, runs: Runs) -> Floats:
+    counter = (name_word(name), DISPERSION, runs, stream)
+    if distribution.uniform is not None:
+        low, high = distribution.uniform
+        drawn: Floats = low + uniforms(counter, key)[0] * (high - low)
+        return drawn
+    if distribution.normal is not None:
+        bell: Floats = distribution.normal.mean + distribution.normal.std * normals(counter, key)[0]
+        return bell
+    assert distribution.truncated_normal is not None
+    return _draw_truncated(distribution.truncated_normal, name, key=key, stream=stream, runs=runs)
+
+
+def _draw_truncated(window: TruncatedNormal, name: str, *, key: int, stream: int, runs: Runs) -> Floats:
+    # A window of 10 % (the least that is accepted) is missed 256 times with probability 2e-12; then the edge is flown.
+    found = np.full(len(runs), np.nan)
+    open_ = np.arange(len(runs))
+    for attempt in range(MAX_ATTEMPTS):
+        counter = (name_word(name), DISPERSION + attempt, runs[open_], stream)
+        found[open_] = window.mean + window.std * normals(counter, key)[0]
+        open_ = open_[(found[open_] < window.low) | (found[open_] > window.high)]
+        if not len(open_):
+            break
+    inside: Floats = np.minimum(np.maximum(found, window.low), window.high)
+    return inside

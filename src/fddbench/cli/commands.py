@@ -1,0 +1,137 @@
+"""One function a command; everything heavy is imported by the command that needs it."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from fddbench.errors import FddbenchError, ResultsError
+
+__all__ = ["check", "init", "list_", "report", "run", "schema", "scores"]
+
+
+def run(args: argparse.Namespace) -> int:
+    """Fly a campaign and write its tables.
+
+    Goes on where an earlier run of the same campaign stopped. Ctrl-C stops after saving what is finished.
+    """
+    from fddbench.campaign.load import read_campaign
+    from fddbench.cli.progress import shown
+    from fddbench.runner.run import run_campaign
+
+    campaign = read_campaign(args.campaign, args.overrides)
+    folder = args.out or Path("results") / campaign.name
+    with shown(campaign.name, quiet=args.quiet) as progress:
+        report = run_campaign(campaign, folder, jobs=args.jobs, fresh=args.fresh, progress=progress)
+    if report.interrupted:
+        done = report.continued + report.flights
+        print(
+            f"fddbench: interrupted; {done} of {report.total} flights are saved in {folder}.\n"
+            "Run the same command again to continue.",
+            file=sys.stderr,
+        )
+        return 130
+    _summary(folder)
+    again = f", {report.continued} found done" if report.continued else ""
+    print(f"\n{report.flights} flights flown{again} in {report.wall_s:.1f} s; results in {folder}")
+    print(f"next: fddbench report {folder}")
+    return 1 if report.failed_rows else 0
+
+
+def _summary(folder: Path) -> None:
+    """Print the summary table of a folder of results."""
+    from fddbench.metrics.summary import summarize
+    from fddbench.reporting.terminal import to_text
+    from fddbench.results.table import load
+
+    rows = load(folder)
+    print(to_text(summarize(rows)))
+    failed = rows[~rows["status"].isin(["ok", "infeasible"])]
+    for (detector, status, reason), group in failed.groupby(["detector", "status", "reason"], dropna=False):
+        cases = ", ".join(str(case) for case in group["case"].head(3))
+        print(f"{status}: {detector}, {len(group)} flights (case {cases}{', ...' if len(group) > 3 else ''}): {reason}")
+
+
+def report(args: argparse.Namespace) -> int:
+    """Write the page of a folder of results: one HTML file that needs no network."""
+    from fddbench.cli.report_data import report_data
+    from fddbench.reporting.page import write_page
+
+    if not args.folder.is_dir():
+        raise ResultsError(f"{args.folder} is no folder; name one that `fddbench run` wrote")
+    output = args.output or args.folder / "report.html"
+    data = report_data(args.folder)
+    try:
+        write_page(data, output)
+    except OSError as error:
+        raise FddbenchError(f"cannot write {output}: {error.strerror}; name another file with --output") from error
+    print(output)
+    return 0
+
+
+def scores(args: argparse.Namespace) -> int:
+    """Print the scores of a folder of results as YAML, to keep under version control."""
+    from fddbench.reporting.scores import scores_text
+    from fddbench.results.folder import provenance_of
+    from fddbench.results.table import load
+
+    print(scores_text(load(args.folder), provenance_of(args.folder)), end="")
+    return 0
+
+
+def check(args: argparse.Namespace) -> int:
+    """Say every mistake of a campaign at once, or what it would fly, and how long that takes."""
+    from fddbench.campaign.check import describe
+    from fddbench.campaign.load import read_campaign
+    from fddbench.runner.assembly import assemble
+
+    campaign = read_campaign(args.campaign, args.overrides)
+    print(describe(assemble(campaign).plan))
+    return 0
+
+
+def list_(args: argparse.Namespace) -> int:
+    """List what campaigns can name: benchmarks, faults, voters, detectors, shipped campaigns and designs."""
+    from fddbench import gallery, registry
+
+    del args
+    for family in registry.FAMILIES:
+        print(f"{family}s")
+        for name in registry.kinds(family):
+            kind = registry.load(family, name)
+            about = getattr(kind, "about", "") or (kind.__doc__ or "").split("\n")[0]
+            print(f"  {name:<16}{about}")
+    for name in ("campaigns", "detectors"):
+        print("shipped campaigns" if name == "campaigns" else "shipped designs")
+        for path in sorted(gallery.folder(name).glob("*.yaml")):
+            print(f"  {path.stem:<26}{path.read_text(encoding='utf-8').split(chr(10))[0].lstrip('# ')}")
+    return 0
+
+
+def init(args: argparse.Namespace) -> int:
+    """Copy the shipped campaigns and designs, to start from; what is there already is left alone."""
+    import shutil
+
+    from fddbench import gallery
+
+    for name in ("campaigns", "detectors"):
+        target = args.folder / name
+        try:
+            target.mkdir(parents=True, exist_ok=True)
+            for path in sorted(gallery.folder(name).iterdir()):
+                if path.is_file() and not (target / path.name).exists():
+                    shutil.copyfile(path, target / path.name)
+                    print(target / path.name)
+        except OSError as error:
+            raise FddbenchError(f"cannot write into {target}: {error.strerror}; name another folder") from error
+    return 0
+
+
+def schema(args: argparse.Namespace) -> int:
+    """Print the JSON schema of a campaign, so that an editor completes its keys."""
+    import json
+
+    from fddbench.campaign.schema import campaign_schema
+
+    del args
+    print(json.dumps(campaign_schema(), indent=2))
+    return 0

@@ -1,0 +1,101 @@
+"""Commands of fddbench. Exit codes: 0 done, 1 done but some cases failed, 2 a mistake in what the user wrote."""
+
+import argparse
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+from fddbench import __version__
+from fddbench.cli import commands
+from fddbench.errors import FddbenchError
+
+__all__ = ["entry", "main", "parser"]
+
+
+def parser() -> argparse.ArgumentParser:
+    """Parser of all commands; the docstring of a command is its help."""
+    top = argparse.ArgumentParser(
+        prog="fddbench",
+        description="Monte-Carlo benchmark campaigns for aerospace fault detection and diagnosis.",
+        epilog="Exit codes: 0 done, 1 done but some cases failed, 2 a mistake in what you wrote, 130 interrupted.",
+    )
+    top.add_argument("--version", action="version", version=f"fddbench {__version__}")
+    subs = top.add_subparsers(required=True, metavar="COMMAND")
+
+    run = _add(subs, "run", commands.run)
+    _campaign(run)
+    run.add_argument(
+        "--out", type=Path, metavar="DIR", help="folder of results (default: results/<name of the campaign>)"
+    )
+    run.add_argument(
+        "--jobs", type=_jobs, default=2, metavar="N", help="worker processes (default: 2); no part of any result"
+    )
+    run.add_argument("--fresh", action="store_true", help="replace what the folder holds")
+    run.add_argument("--quiet", action="store_true", help="no progress")
+
+    report = _add(subs, "report", commands.report)
+    report.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+    report.add_argument("--output", type=Path, metavar="FILE", help="page to write (default: DIR/report.html)")
+
+    scores = _add(subs, "scores", commands.scores)
+    scores.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+
+    check = _add(subs, "check", commands.check)
+    _campaign(check)
+
+    _add(subs, "list", commands.list_)
+    init = _add(subs, "init", commands.init)
+    init.add_argument("folder", type=Path, nargs="?", default=Path(), metavar="DIR", help="where to (default: here)")
+    _add(subs, "schema", commands.schema)
+    return top
+
+
+def _add(subs, name: str, command: Callable[[argparse.Namespace], int]) -> argparse.ArgumentParser:  # type: ignore[no-untyped-def]
+    text = command.__doc__ or ""
+    added: argparse.ArgumentParser = subs.add_parser(
+        name, help=text.split("\n")[0], description=text, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    added.set_defaults(command=command)
+    return added
+
+
+def _campaign(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "campaign", type=Path, metavar="CAMPAIGN.yaml", help="campaign file, or the name of a shipped one"
+    )
+    command.add_argument(
+        "--set", action="append", default=[], metavar="PATH=VALUE", dest="overrides",
+        help="change a value of the campaign, e.g. dispersions.monte_carlo.runs=10 (may be repeated)",
+    )  # fmt: skip
+
+
+def _jobs(text: str) -> int:
+    """Number of workers."""
+    if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= 256:
+        raise argparse.ArgumentTypeError(f"need a whole number from 1 to 256, got {text!r}")
+    return int(text)
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Run one command and return its exit code."""
+    args = parser().parse_args(argv)
+    try:
+        code: int = args.command(args)
+        sys.stdout.flush()
+        return code
+    except FddbenchError as error:
+        print(f"fddbench: {error}", file=sys.stderr)
+        return 2
+    except BrokenPipeError:
+        # the reader of a pipe (head, less) has gone: that is no mistake; keep Python from flushing once more
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except KeyboardInterrupt:
+        print("fddbench: interrupted", file=sys.stderr)
+        return 130
+
+
+def entry() -> None:
+    """Entry point of the installed command."""
+    sys.exit(main())

@@ -1,0 +1,57 @@
+"""Numbers as readers see them; an absent one is a dash."""
+
+from typing import Any
+
+import pandas as pd
+
+__all__ = ["DASH", "count", "interval", "percent", "present", "rate", "seconds", "signed"]
+
+DASH = "–"
+
+
+def present(value: Any) -> bool:
+    """Whether there is a value: not None, not ``pd.NA``, not NaN."""
+    return not bool(pd.isna(value))
+
+
+def count(value: Any) -> str:
+    """Whole number, thousands set apart: ``1 000``."""
+    return f"{int(value):,}".replace(",", "\u202f") if present(value) else DASH
+
+
+def percent(value: Any) -> str:
+    """Share with one decimal; never rounded up to 100 or down to 0 when it is neither.
+
+    >>> percent(99.98), percent(100.0), percent(0.01)
+    ('>99.9', '100', '<0.1')
+    """
+    if not present(value):
+        return DASH
+    if 99.95 <= value < 100.0:
+        return ">99.9"
+    if 0.0 < value < 0.05:
+        return "<0.1"
+    return f"{value:.1f}" if 0.0 < value < 100.0 else f"{value:.0f}"
+
+
+def rate(value: Any) -> str:
+    """Rate per hour with three digits: ``0``, ``0.0221``, ``12.3``."""
+    if not present(value):
+        return DASH
+    return f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
+
+
+def seconds(value: Any) -> str:
+    """Time [s] to the sample: ``0.11``, ``4.10``."""
+    return f"{value:.2f}" if present(value) else DASH
+
+
+def interval(low: Any, high: Any, form: Any = percent) -> str:
+    """Text of both ends, ``96.4 … 100``; empty without them."""
+    return f"{form(low)} … {form(high)}" if present(low) and present(high) else ""
+
+
+def signed(value: float) -> str:
+    """Difference with its sign and without needless decimals: ``+1``, ``−2``, ``0``."""
+    text = f"{abs(value):g}"
+    return text if value == 0 else ("+" if value > 0 else "−") + text

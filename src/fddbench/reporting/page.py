@@ -1,0 +1,119 @@
+"""Writes the report: one HTML file that needs nothing beside it and no network."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from fddbench.interfaces import Recording
+from fddbench.metrics.summary import summarize
+from fddbench.reporting import figures, headlines, signals, tables
+from fddbench.reporting.published import Published
+
+__all__ = ["ReportData", "page_html", "write_page"]
+
+_MOST_REASONS = 60
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReportData:
+    """Everything that a page shows.
+
+    Attributes
+    ----------
+    campaign : mapping
+        Effective content of the campaign: name, about, seed, benchmark, plant, voter, sensors, wind, purpose, sample_s,
+        scenarios, detectors.
+    rows, events : DataFrame
+        Tables as ``fddbench.load`` gives them.
+    provenance : mapping of str to str
+        Versions, machine, date, wall time, hashes: shown as it is.
+    designs : sequence of mapping
+        Per detector name, kind, source, about, sha256.
+    recordings : sequence of Recording
+        Re-flown cases, one recording per scenario.
+    published : Published or None
+        Printed table to stand beside ours.
+    """
+
+    campaign: Mapping[str, Any]
+    rows: pd.DataFrame
+    events: pd.DataFrame
+    provenance: Mapping[str, str]
+    designs: Sequence[Mapping[str, Any]]
+    recordings: Sequence[Recording]
+    published: Published | None = None
+
+
+def write_page(report: ReportData, output: Path) -> None:
+    """Write the page of `report` to the file `output`; its folder is made."""
+    output.parent.mkdir(parents=True, exist_ok=True)
+    output.write_text(page_html(report), encoding="utf-8")
+
+
+def page_html(report: ReportData) -> str:
+    """Text of the page; the same bytes for the same report and the same versions of the libraries."""
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
+    environment = Environment(
+        loader=PackageLoader("fddbench.reporting"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    style, _, _ = environment.loader.get_source(environment, "style.css")  # type: ignore[union-attr]
+    return environment.get_template("page.html.j2").render(style=style, **_content(report))
+
+
+def _content(report: ReportData) -> dict[str, Any]:
+    rows = report.rows
+    summary = summarize(rows)
+    compared = tables.published_lines(summary, report.published) if report.published else []
+    reasons = tables.reason_lines(rows)
+    return {
+        "campaign": report.campaign,
+        "settings": _settings(report.campaign),
+        "campaign_text": _as_yaml(report.campaign),
+        "flown": headlines.flown_sentence(rows),
+        "findings": headlines.findings(summary),
+        "results": tables.result_lines(summary),
+        "published": report.published,
+        "compared": compared,
+        "curves": figures.detection_curves(rows),
+        "pictures": [_picture(recording, rows) for recording in report.recordings if recording.cases],
+        "envelope": figures.envelope(rows),
+        "reasons": reasons[:_MOST_REASONS],
+        "more_reasons": max(len(reasons) - _MOST_REASONS, 0),
+        "events": tables.event_lines(report.events) if len(report.events) else [],
+        "provenance": report.provenance,
+        "designs": report.designs,
+    }
+
+
+def _settings(campaign: Mapping[str, Any]) -> dict[str, Any]:
+    names = ("benchmark", "plant", "voter", "sensors", "wind", "purpose", "seed", "sample_s")
+    return {name: campaign[name] for name in names if campaign.get(name) is not None}
+
+
+def _picture(recording: Recording, rows: pd.DataFrame) -> dict[str, Any]:
+    detectors = list(recording.detectors)
+    worst = [recording.cases[signals.worst_case(recording, rows, name)] for name in detectors if recording.cases]
+    here = rows[np.asarray(rows["scenario"] == recording.scenario, dtype=bool)]
+    return {
+        "scenario": recording.scenario,
+        "onset_s": recording.onset_s,
+        "shown": len(recording.cases),
+        "cases": here["case"].nunique(),
+        "worst": ", ".join(f"{name} case {case}" for name, case in zip(detectors, worst, strict=False)),
+        "png": signals.recording_picture(recording, rows),
+    }
+
+
+def _as_yaml(content: Mapping[str, Any]) -> str:
+    import yaml
+
+    return yaml.safe_dump(dict(content), sort_keys=False, allow_unicode=True, width=110, default_flow_style=None)

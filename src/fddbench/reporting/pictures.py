@@ -1,0 +1,101 @@
+"""How every picture of the page looks, and how it becomes text: PNG in base64, the same bytes for the same input."""
+
+import base64
+import io
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from fddbench.interfaces import Floats
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["INK", "MUTED", "ORDINARY", "WARNING", "colour", "dashes", "thinned", "to_png"]
+
+INK, MUTED, ORDINARY, WARNING = "#1f2933", "#7b8794", "#9fb3c8", "#b3261e"
+# Okabe and Ito (2008): told apart by the colour blind and in grey.
+_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
+_STYLE: Any = {
+    "text.parse_math": False,
+    "font.family": "sans-serif",
+    "font.sans-serif": ["DejaVu Sans"],
+    "font.size": 8.5,
+    "text.color": INK,
+    "axes.edgecolor": MUTED,
+    "axes.labelcolor": INK,
+    "axes.labelsize": 8,
+    "axes.linewidth": 0.7,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.titlesize": 9,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "axes.grid": True,
+    "axes.formatter.useoffset": False,
+    "grid.color": "#e4e7eb",
+    "grid.linewidth": 0.6,
+    "xtick.color": MUTED,
+    "ytick.color": MUTED,
+    "xtick.labelcolor": INK,
+    "ytick.labelcolor": INK,
+    "xtick.labelsize": 8,
+    "ytick.labelsize": 8,
+    "legend.frameon": False,
+    "legend.fontsize": 8.5,
+    "figure.facecolor": "white",
+}
+
+
+def colour(i: int) -> str:
+    """Colour of detector `i` in every picture."""
+    return _COLOURS[i % len(_COLOURS)]
+
+
+def dashes(i: int) -> Any:
+    """Line style of detector `i`, so that equal curves both show."""
+    return ("-", (0, (3, 1.5)), (0, (1, 1)), (0, (5, 1, 1, 1)))[i % 4]
+
+
+def to_png(draw: Callable[["Figure"], None], *, width_in: float, height_in: float) -> str:
+    """Picture drawn by `draw` on a fresh figure, as base64 text of a PNG.
+
+    Drawn by Agg without pyplot: nothing global is touched and nothing has to be closed.
+    """
+    import matplotlib as mpl
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    with mpl.rc_context(_STYLE):
+        figure = Figure(figsize=(width_in, height_in), dpi=130, layout="constrained")
+        FigureCanvasAgg(figure)
+        draw(figure)
+        stream = io.BytesIO()
+        figure.savefig(stream, format="png", metadata={"Software": None}, pil_kwargs={"compress_level": 9})
+    return base64.b64encode(stream.getvalue()).decode("ascii")
+
+
+def thinned(time_s: Floats, values: Floats, blocks: int = 500) -> tuple[Floats, Floats]:
+    """Signals with fewer points that keep every extreme: the smallest and largest of each block of samples.
+
+    Parameters
+    ----------
+    time_s : (n_time,) array
+        Time [s].
+    values : (n_time, n_cases) array
+        Signals; NaN after the end of a flight.
+    blocks : int
+        Blocks to keep; shorter signals are returned as they are.
+
+    Returns
+    -------
+    (n_point,) and (n_point, n_cases) arrays
+        At most two points per block.
+    """
+    size = len(time_s) // blocks
+    if size < 3:
+        return time_s, values
+    starts = np.arange(0, len(time_s), size)
+    extremes = np.stack([np.fmin.reduceat(values, starts), np.fmax.reduceat(values, starts)], axis=1)
+    return np.repeat(time_s[starts], 2), extremes.reshape(2 * len(starts), -1)

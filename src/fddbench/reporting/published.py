@@ -1,0 +1,100 @@
+"""The printed tables of the papers, read from ``reports/published/``, to stand beside our own results."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import yaml
+
+from fddbench import gallery
+from fddbench.errors import FddbenchError, did_you_mean
+
+__all__ = ["Published", "PublishedRow", "published", "published_for"]
+
+_DEFAULTS = {"yaw_rate": "table8"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class PublishedRow:
+    """One printed line.
+
+    Attributes
+    ----------
+    variant, scenario, manoeuvre : str
+        Which column or half of the table, the scenario's name as in campaigns, what was flown ("": cruise).
+    n_faulty : int
+        Faulty sites.
+    onset_s : float or None
+        Failure time [s]; None: healthy.
+    true_detection_percent : float
+        As printed [%].
+    normalized_detection_time : float or None
+        As printed [-]; None: healthy.
+    detection_time_limit_s, detection_time_samples : float, int or None
+        Inferred from the printed ratio; None: healthy.
+    """
+
+    variant: str
+    scenario: str
+    manoeuvre: str = ""
+    n_faulty: int
+    onset_s: float | None = None
+    true_detection_percent: float
+    normalized_detection_time: float | None = None
+    detection_time_limit_s: float | None = None
+    detection_time_samples: int | None = None
+    amplitude_percent: float | None = None
+    rate_percent_s: float | None = None
+    variance_percent: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Published:
+    """A printed table: where it stands, what in it is inferred, its variants by name and its rows."""
+
+    table: int
+    title: str
+    source: str
+    note: str
+    printed: tuple[str, ...]
+    inferred: tuple[str, ...]
+    sample_s: float
+    variants: Mapping[str, str]
+    rows: tuple[PublishedRow, ...]
+
+    def row(self, variant: str, scenario: str) -> PublishedRow | None:
+        """Return the printed row of a scenario that has a detection time, None without one."""
+        for row in self.rows:
+            if row.variant == variant and row.scenario == scenario and row.detection_time_samples is not None:
+                return row
+        return None
+
+
+def published(table: str) -> Published:
+    """Read a printed table by the name of its file, e.g. ``"table8"``.
+
+    Raises
+    ------
+    FddbenchError
+        There is no such table.
+
+    Examples
+    --------
+    >>> published("table8").row("simulink", "jam_a").detection_time_samples
+    100
+    """
+    folder = gallery.folder("reports") / "published"
+    known = sorted(path.stem for path in folder.glob("*.yaml"))
+    if table not in known:
+        near = did_you_mean(table, known)
+        raise FddbenchError(f"no published table is called {table!r}. {near}\nKnown: {', '.join(known) or 'none'}.")
+    content = yaml.safe_load((folder / f"{table}.yaml").read_text(encoding="utf-8"))
+    rows = tuple(PublishedRow(**row) for row in content.pop("rows"))
+    printed, inferred = tuple(content.pop("printed")), tuple(content.pop("inferred"))
+    return Published(**content, printed=printed, inferred=inferred, rows=rows)
+
+
+def published_for(campaign: Mapping[str, Any]) -> Published | None:
+    """Table that a campaign names under ``published``, else the default of its benchmark, else None."""
+    table = campaign.get("published") or _DEFAULTS.get(str(campaign.get("benchmark")))
+    return published(table) if table else None

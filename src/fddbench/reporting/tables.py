@@ -1,0 +1,168 @@
+"""The tables of the page: rows of formatted cells, ready for the template."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from fddbench.metrics.summary import rate_with_interval
+from fddbench.reporting.formats import DASH, count, interval, percent, present, rate, seconds, signed
+from fddbench.reporting.published import Published
+
+__all__ = ["Cell", "event_lines", "published_lines", "reason_lines", "result_lines"]
+
+Line = dict[Any, Any]
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A table cell: its text, a small line below it, whether it must catch the eye, rows it spans."""
+
+    text: str
+    small: str = ""
+    alarm: bool = False
+    rows: int = 1
+
+
+def result_lines(summary: pd.DataFrame) -> list[list[Cell]]:
+    """One line of cells per scenario and detector; a scenario's cell spans its detectors."""
+    spans = summary.groupby("scenario", sort=False).size().to_dict()
+    lines, previous = [], None
+    for line in summary.to_dict("records"):
+        cells = _result(line)
+        if line["scenario"] != previous:
+            note = "healthy" if line["healthy"] else f"limit {_limit(line)}"
+            cells.insert(0, Cell(line["scenario"], note, rows=int(spans[line["scenario"]])))
+        previous = line["scenario"]
+        lines.append(cells)
+    return lines
+
+
+def _limit(line: Line) -> str:
+    limit_s = line["detection_time_limit_s"]
+    return f"{limit_s:g} s" if present(limit_s) else DASH
+
+
+def _result(line: Line) -> list[Cell]:
+    lost = [f"{count(line[name])} {name}" for name in ("infeasible", "failed") if line[name]]
+    hourly = interval(line["false_alarm_low_per_hour"], line["false_alarm_high_per_hour"], rate)
+    exposure = f"{line['exposure_h']:.3g} h" if line["exposure_h"] else ""
+    return [
+        Cell(line["detector"]),
+        Cell(f"{count(line['flown'])} of {count(line['flights'])}", ", ".join(lost)),
+        _counted(line, "over_declared", alarm=True),
+        _share(line, "true_detection"),
+        _counted(line, "false_alarm", alarm=True),
+        Cell(rate(line["false_alarm_per_hour"]), f"{hourly} in {exposure}" if hourly else ""),
+        _counted(line, "missed", alarm=True),
+        Cell(count(line["censored"])),
+        _share(line, "isolated"),
+        Cell(seconds(line["detection_time_median_s"]), f"n {line['detections']}" if line["detections"] else ""),
+        Cell(seconds(line["detection_time_p95_s"])),
+        Cell(seconds(line["detection_time_max_s"])),
+        Cell(rate(line["normalized_detection_time_max"])),
+        Cell(rate(line["margin_healthy_max"])),
+    ]
+
+
+def _ends(line: Line, name: str) -> str:
+    return interval(line[f"{name}_low_percent"], line[f"{name}_high_percent"])
+
+
+def _counted(line: Line, name: str, *, alarm: bool) -> Cell:
+    if not present(line[name]):
+        return Cell(DASH)
+    ends = _ends(line, name)
+    return Cell(count(line[name]), f"{ends} %" if ends else "", alarm=alarm and line[name] > 0)
+
+
+def _share(line: Line, name: str) -> Cell:
+    if not present(line[f"{name}_percent"]):
+        return Cell(DASH)
+    return Cell(f"{percent(line[f'{name}_percent'])} %", f"{count(line[name])}: {_ends(line, name)}")
+
+
+def published_lines(summary: pd.DataFrame, table: Published) -> list[list[Cell]]:
+    """Our median and maximum detection time in samples beside every printed variant, for the scenarios both have."""
+    printed = {row.scenario for row in table.rows if row.detection_time_samples is not None}
+    ours = summary[summary["scenario"].isin(printed)]
+    lines = []
+    for line in ours.to_dict("records"):
+        median, largest = (_samples(line[f"detection_time_{name}_s"], table.sample_s) for name in ("median", "max"))
+        cells = [
+            Cell(line["scenario"]),
+            Cell(line["detector"]),
+            Cell(f"{count(line['detections'])} of {line['flown']}"),
+        ]
+        cells += [Cell(DASH if n is None else count(n)) for n in (median, largest)]
+        for variant in table.variants:
+            cells += _beside(median, largest, table, variant, line["scenario"])
+        lines.append(cells)
+    return lines
+
+
+def _beside(median: int | None, largest: int | None, table: Published, variant: str, scenario: str) -> list[Cell]:
+    row = table.row(variant, scenario)
+    if row is None or row.detection_time_samples is None:
+        return [Cell(DASH)] * 3
+    printed = f"{count(row.detection_time_samples)} ({row.normalized_detection_time:.4f})"
+    differences = [DASH if n is None else signed(n - row.detection_time_samples) for n in (median, largest)]
+    return [Cell(printed), *map(Cell, differences)]
+
+
+def _samples(time_s: Any, sample_s: float) -> int | None:
+    return round(time_s / sample_s) if present(time_s) else None
+
+
+def reason_lines(rows: pd.DataFrame) -> list[list[Cell]]:
+    """Status, reason, scenarios, flights and rows of everything that has no score; most frequent first."""
+    lost = rows[np.asarray(rows["status"] != "ok", dtype=bool)]
+    known = lost.assign(reason=lost["reason"].astype(object).where(lost["reason"].notna(), "no reason given"))
+    groups = [(key, group) for key, group in known.groupby(["status", "reason"], sort=False)]
+    return [
+        [
+            *(Cell(str(text)) for text in key),
+            Cell(_listed(list(group["scenario"].unique()))),
+            Cell(count(group["case"].nunique())),
+            Cell(count(len(group))),
+        ]
+        for key, group in sorted(groups, key=lambda pair: -len(pair[1]))
+    ]
+
+
+def _listed(names: list[str], most: int = 4) -> str:
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return ", ".join(names[:most]) + more
+
+
+def event_lines(events: pd.DataFrame) -> list[list[Cell]]:
+    """One line per scenario, fault event and detector, of the flown flights."""
+    return list(_events(events[np.asarray(events["status"] == "ok", dtype=bool)]))
+
+
+def _events(flown: pd.DataFrame) -> Iterator[list[Cell]]:
+    for (scenario, event, detector), group in flown.groupby(["scenario", "event", "detector"], sort=False):
+        first = group.iloc[0]
+        flags = {name: int(np.sum(_numbers(group, name) == 1.0)) for name in ("detected", "missed", "censored")}
+        time_s = _numbers(group, "detection_time_s")
+        time_s = time_s[~np.isnan(time_s)]
+        share = rate_with_interval("detected", flags["detected"], len(group))
+        ends = interval(share["detected_low_percent"], share["detected_high_percent"])
+        until = f"{first['end_s']:g} s" if present(first["end_s"]) else "end"
+        yield [
+            Cell(str(scenario)),
+            Cell(f"{event}: {first['fault']}", f"{first['sites']}, {first['onset_s']:g} s to {until}"),
+            Cell(str(detector)),
+            Cell(count(len(group))),
+            Cell(count(flags["detected"]), f"{ends} %"),
+            Cell(count(flags["missed"])),
+            Cell(count(flags["censored"])),
+            Cell(seconds(np.median(time_s) if len(time_s) else None)),
+            Cell(seconds(np.max(time_s) if len(time_s) else None)),
+        ]
+
+
+def _numbers(table: pd.DataFrame, column: str) -> Any:
+    return table[column].to_numpy(dtype=np.float64, na_value=np.nan)

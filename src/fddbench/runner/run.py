@@ -1,0 +1,137 @@
+"""Runs a campaign into a folder of results, and goes on where an earlier run stopped."""
+
+import time
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from fddbench.campaign.meaning import Campaign
+from fddbench.results import manifest
+from fddbench.results.folder import claim, locked
+from fddbench.results.provenance import collect
+from fddbench.runner.assembly import assemble
+from fddbench.runner.chunks import CHUNK, cut, missing, spans
+from fddbench.runner.pool import fly_all
+
+__all__ = ["Progress", "RunReport", "run_campaign"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Progress:
+    """How far a run is: flights flown by it, done in all, of how many, and rows by status so far."""
+
+    flown: int
+    done: int
+    total: int
+    statuses: Counter[str]
+
+
+@dataclass(frozen=True, kw_only=True)
+class RunReport:
+    """How a run ended.
+
+    Attributes
+    ----------
+    folder : Path
+        Folder of results.
+    flights, continued : int
+        Flights flown by this run, and those found done.
+    total : int
+        Flights of the campaign.
+    statuses : Counter
+        Rows by status, of the whole campaign.
+    interrupted : bool
+        Ctrl-C came before the end.
+    wall_s : float
+        Wall time of this run [s].
+    """
+
+    folder: Path
+    flights: int
+    continued: int
+    total: int
+    statuses: Counter[str]
+    interrupted: bool
+    wall_s: float
+
+    @property
+    def failed_rows(self) -> int:
+        """Rows that are neither scored nor infeasible."""
+        return sum(n for status, n in self.statuses.items() if status not in ("ok", "infeasible"))
+
+
+def run_campaign(
+    campaign: Campaign,
+    folder: Path,
+    *,
+    jobs: int = 2,
+    fresh: bool = False,
+    chunk: int = CHUNK,
+    progress: Callable[[Progress], None] | None = None,
+) -> RunReport:
+    """Fly every case of a campaign that the folder does not hold yet.
+
+    Parameters
+    ----------
+    campaign : Campaign
+        As read by `fddbench.campaign.load.read_campaign`.
+    folder : Path
+        Folder of results, laid out as ARCHITECTURE.md says.
+    jobs : int
+        Worker processes; no part of any result.
+    fresh : bool
+        Replace what the folder holds.
+    chunk : int
+        Cases side by side; no part of any result.
+    progress : callable
+        Told after every chunk.
+
+    Raises
+    ------
+    FddbenchError
+        The design makes no detector, the folder is another campaign's, or is being written.
+    """
+    begun = time.monotonic()
+    plan = assemble(campaign).plan
+    with locked(folder):
+        claim(folder, files=campaign.files(), provenance=_provenance(campaign), fresh=fresh)
+        done = manifest.shards(folder, intact=True)
+        manifest.keep(folder, done)
+        statuses = Counter[str]()
+        left = missing(plan.n_cases, [shard.cases for shard in done])
+        for shard in done:
+            statuses.update(shard.statuses)
+        flown, interrupted = 0, False
+        chunks = [spans(part) for part in cut(plan, left, size=chunk, jobs=jobs)]
+        shards = fly_all(str(folder), campaign.sha256, chunks, jobs=jobs)
+        try:
+            for shard in shards:
+                manifest.append(folder, shard)
+                flown += sum(count for _, count in shard.cases)
+                statuses.update(shard.statuses)
+                if progress is not None:
+                    done_now = plan.n_cases - len(left) + flown
+                    progress(Progress(flown=flown, done=done_now, total=plan.n_cases, statuses=statuses))
+        except KeyboardInterrupt:
+            interrupted = True
+        finally:
+            shards.close()  # type: ignore[attr-defined]
+    return RunReport(
+        folder=folder,
+        flights=flown,
+        continued=plan.n_cases - len(left),
+        total=plan.n_cases,
+        statuses=statuses,
+        interrupted=interrupted,
+        wall_s=time.monotonic() - begun,
+    )
+
+
+def _provenance(campaign: Campaign) -> dict[str, object]:
+    return collect(
+        campaign=campaign.name,
+        campaign_sha256=campaign.sha256,
+        designs_sha256={design.name: design.sha256 for design in campaign.designs},
+        seed=campaign.seed,
+    )

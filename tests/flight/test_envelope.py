@@ -1,0 +1,44 @@
+"""The level-flight envelope: laws that any choice of its numbers must keep."""
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from fddbench.flight import envelope
+from fddbench.flight.atmosphere import density_kg_m3, true_airspeed_m_s
+
+masses, altitudes, speeds = st.floats(110e3, 250e3), st.floats(1e3, 40e3), st.floats(150.0, 330.0)
+
+
+def one(value):
+    return np.array([float(value)])
+
+
+@given(masses, altitudes, speeds)
+def test_lift_carries_the_weight(mass, altitude, v_cas):
+    v = true_airspeed_m_s(one(v_cas), one(altitude))
+    q = 0.5 * density_kg_m3(one(altitude)) * v * v
+    lift = envelope.lift_coefficient(one(mass), one(altitude), one(v_cas)) * q * 361.6
+    np.testing.assert_allclose(lift, mass * 9.80665, rtol=1e-12)
+
+
+@given(masses, altitudes, speeds, st.floats(1e3, 50e3))
+def test_a_lighter_aircraft_flies_wherever_a_heavier_one_does(mass, altitude, v_cas, less):
+    heavy, light = (
+        envelope.infeasible_reasons(one(m), one(altitude), one(v_cas))[0] for m in (mass, mass - less)
+    )
+    assert light == "" or heavy != ""
+
+
+@given(masses, altitudes, speeds)
+def test_every_refusal_says_which_limit_and_by_how_much(mass, altitude, v_cas):
+    (reason,) = envelope.infeasible_reasons(one(mass), one(altitude), one(v_cas))
+    assert reason == "" or reason.startswith(("above V_MO: ", "above M_MO: ", "buffet: ", "thrust: "))
+
+
+def test_each_limit_is_met_somewhere():
+    mass = np.array([200e3, 200e3, 233e3, 233e3, 200e3])
+    altitude = np.array([5e3, 38e3, 38e3, 38e3, 20e3])
+    v_cas = np.array([331.0, 300.0, 160.0, 240.0, 290.0])
+    reasons = envelope.infeasible_reasons(mass, altitude, v_cas)
+    assert [reason.split(":")[0] for reason in reasons] == ["above V_MO", "above M_MO", "buffet", "thrust", ""]

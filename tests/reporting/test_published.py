@@ -1,0 +1,40 @@
+import pytest
+
+from fddbench.errors import FddbenchError
+from fddbench.reporting.published import published, published_for
+
+
+@pytest.mark.parametrize("table", ["table7", "table8", "table9", "table10", "table11"])
+def test_times_are_the_printed_ratio_times_the_inferred_limit(table):
+    content = published(table)
+    assert f"table{content.table}" == table
+    assert "inferred" in content.note
+    assert set(content.inferred) == {"detection_time_limit_s", "detection_time_samples"}
+    assert {row.variant for row in content.rows} == set(content.variants)
+    for row in (row for row in content.rows if row.n_faulty):
+        limit_s = 1.5 if row.scenario == "runaway_a" else {1: 120.0, 2: 0.36}[row.n_faulty]
+        assert row.detection_time_limit_s == limit_s
+        assert row.detection_time_samples * content.sample_s == pytest.approx(
+            row.normalized_detection_time * limit_s, abs=0.5e-4 * limit_s + 1e-9
+        )
+        assert sum(size is not None for size in (row.amplitude_percent, row.rate_percent_s, row.variance_percent)) == 1
+
+
+def test_table8_as_printed():
+    table = published("table8")
+    times = {variant: [row.detection_time_samples for row in table.rows if row.variant == variant and row.n_faulty]
+             for variant in table.variants}  # fmt: skip
+    assert times == {
+        "simulink": [410, 11, 100, 11, 41, 13, 100, 11, 102, 13],
+        "sao": [410, 10, 100, 10, 41, 12, 100, 10, 102, 12],
+    }
+    assert table.row("sao", "fault_free") is None
+    assert table.row("sao", "no_such") is None
+
+
+def test_a_campaign_names_its_table():
+    assert published_for({"benchmark": "yaw_rate"}).table == 8
+    assert published_for({"benchmark": "yaw_rate", "published": "table10"}).table == 10
+    assert published_for({"benchmark": "jet_engine"}) is None
+    with pytest.raises(FddbenchError, match="no published table is called 'table88'. Did you mean 'table8'"):
+        published_for({"published": "table88"})

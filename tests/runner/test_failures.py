@@ -1,0 +1,78 @@
+"""Failure is data: what a detector or a flight does wrong is a row with a status, and no other row knows."""
+
+import numpy as np
+import pytest
+
+from fddbench.campaign.load import read_campaign
+from fddbench.interfaces import Verdict
+from fddbench.runner.assembly import Assembly, assemble
+from fddbench.runner.work import rows_and_events
+from tests.runner.conftest import TEXT, write
+
+
+class Faulty:
+    """Wraps a detector and does something wrong with it."""
+
+    recorded = ()
+
+    def __init__(self, inner, wrong):
+        self.inner, self.wrong, self.states = inner, wrong, inner.states
+
+    def start(self, n_cases):
+        return self.inner.start(n_cases)
+
+    def step(self, state, measured):
+        after, verdict = self.inner.step(state, measured)
+        return after, self.wrong(verdict, measured)
+
+
+def _raise_for_heavy(verdict, measured):
+    if (measured.mass_kg > 200e3).any():
+        raise ValueError("too heavy for me")
+    return verdict
+
+
+def _nan(verdict, measured):
+    return Verdict(verdict.declared, np.where(measured.mass_kg > 200e3, np.nan, verdict.ratio))
+
+
+def _flown(assembly, wrong):
+    detectors = {**assembly.detectors, "wrong": Faulty(assembly.detectors["voting_monitor"], wrong)}
+    broken = Assembly(plan=assembly.plan, loop=assembly.loop, detectors=detectors, scoring=assembly.scoring)
+    rows, events = rows_and_events(broken, np.arange(assembly.plan.n_cases))
+    return rows, events
+
+
+@pytest.fixture(scope="module")
+def sound(assembly):
+    return rows_and_events(assembly, np.arange(assembly.plan.n_cases))[0]
+
+
+@pytest.mark.parametrize(("wrong", "status", "reason"), [(_raise_for_heavy, "error", "ValueError: too heavy"), (_nan, "nonfinite", "finite")])
+def test_a_wrong_detector_is_a_status_of_its_own_rows_only(assembly, sound, wrong, status, reason):
+    rows, events = _flown(assembly, wrong)
+    mine = [row for row in rows if row["detector"] == "wrong"]
+    heavy = [row["p_mass_kg"] * (1 + row["p_mass_error_percent"] / 100) > 200e3 for row in mine]
+    for row, is_heavy in zip(mine, heavy, strict=True):
+        if row["status"] == "infeasible":
+            continue
+        assert row["status"] == (status if is_heavy else "ok")
+        if is_heavy:
+            assert reason in row["reason"]
+            assert row["n_declared"] is None
+            assert row["detection_time_s"] is None
+    assert any(heavy)
+    assert not all(heavy)
+    assert [row for row in rows if row["detector"] != "wrong"] == sound
+    assert all(event["detected"] is None for event in events if event["status"] != "ok")
+
+
+def test_a_flight_that_departs_without_detection_is_diverged(tmp_path):
+    # gusts of 60 m/s, one sigma: no law can hold that
+    text = TEXT.replace("wind: light", "wind: severe").replace("duration_s: 3.0", "duration_s: 20.0")
+    text = text.replace("gust_scale_ratio: {uniform: [0.0, 0.3]}", "gust_scale_ratio: {uniform: [9.0, 10.0]}")
+    assembly = assemble(read_campaign(write(tmp_path, text)))
+    rows, _ = rows_and_events(assembly, np.arange(assembly.plan.n_cases))
+    diverged = [row for row in rows if row["status"] == "diverged"]
+    assert diverged
+    assert all("departed at sample" in row["reason"] and row["false_alarm"] is None for row in diverged)
