@@ -165,8 +165,8 @@ class Compiled:
         tile = np.full((end - first, n_rows, width), np.nan)
         flying = np.pad(np.asarray(samples, dtype=np.int64), (0, padding))
         arrays = [
-            np.pad(np.asarray(state, dtype=float), ((0, 0), (0, padding)), mode="edge"),
-            np.pad(np.asarray(constants, dtype=float), ((0, 0), (0, padding)), mode="edge"),
+            _padded(state, padding),
+            _padded(constants, padding),
             flying,
             *(_words(word, n_cases, padding) for word in (addresses.run, addresses.flight, addresses.scenario)),
             tile,
@@ -175,6 +175,12 @@ class Compiled:
         self._function(width, first, end, addresses.key, *(array.ctypes.data for array in arrays))
         recorded = _split(tile[:, :, :n_cases], self._program, self._recorded)
         return Flown(state=arrays[0][:, :n_cases], samples=flying[:n_cases], recorded=recorded)
+
+
+def _padded(rows: Floats, padding: int) -> Floats:
+    """Copy in C order with the last case repeated, so that idle lanes compute nothing unusual."""
+    rows = np.asarray(rows, dtype=float)
+    return np.ascontiguousarray(np.concatenate([rows, np.repeat(rows[:, -1:], padding, axis=1)], axis=1))
 
 
 def _words(word: npt.ArrayLike, n_cases: int, padding: int) -> Any:
