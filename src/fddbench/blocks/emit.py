@@ -93,7 +93,7 @@ class Vectors:
         chosen = self.let(
             f"select {self.M} {self.let(f'fcmp {comparison} {self.V} {a}, {b}')}, {self.V} {a}, {self.V} {b}"
         )
-        if a.startswith("splat"):
+        if a.startswith("splat"):  # a number, which is not nan
             return chosen
         nan = self.let(f"fcmp uno {self.V} {a}, {a}")
         return self.let(f"select {self.M} {nan}, {self.V} {a}, {self.V} {chosen}")

@@ -148,8 +148,22 @@ def _simpler_not(g: Graph, a: int) -> int | None:
     return node.arguments[0] if node.op == "not" else None
 
 
-def _simpler_extreme(_: Graph, a: int, b: int) -> int | None:
-    return a if a == b else None
+def _simpler_min(g: Graph, a: int, b: int) -> int | None:
+    return _simpler_extreme(g, "min", a, b)
+
+
+def _simpler_max(g: Graph, a: int, b: int) -> int | None:
+    return _simpler_extreme(g, "max", a, b)
+
+
+def _simpler_extreme(g: Graph, op: str, a: int, b: int) -> int | None:
+    known = g.constant(b)
+    if known is not None and np.isnan(known):
+        return b
+    if known is not None and g.constant(a) is None:
+        return g.add(op, b, a)  # a number first needs no look at nan in machine code
+    known = g.constant(a)
+    return a if a == b or (known is not None and np.isnan(known)) else None
 
 
 def _simpler_and(g: Graph, a: int, b: int) -> int | None:
@@ -191,8 +205,8 @@ _RULES: dict[str, Callable[..., int | None]] = {
     "div": _simpler_div,
     "neg": _simpler_neg,
     "not": _simpler_not,
-    "min": _simpler_extreme,
-    "max": _simpler_extreme,
+    "min": _simpler_min,
+    "max": _simpler_max,
     "and": _simpler_and,
     "or": _simpler_or,
     "select": _simpler_select,

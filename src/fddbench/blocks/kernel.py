@@ -158,7 +158,7 @@ class Compiled:
         """As `Kernel.fly`."""
         n_cases = state.shape[1]
         if first >= end or not n_cases:
-            return Flown(state=state.copy(), samples=samples.copy(), recorded={})
+            return self._grounded(state, samples, max(end - first, 0))
         padding = -n_cases % self.lanes
         width = n_cases + padding
         n_rows = sum(len(self._program.outputs[name]) for name in self._recorded)
@@ -175,6 +175,12 @@ class Compiled:
         self._function(width, first, end, addresses.key, *(array.ctypes.data for array in arrays))
         recorded = _split(tile[:, :, :n_cases], self._program, self._recorded)
         return Flown(state=arrays[0][:, :n_cases], samples=flying[:n_cases], recorded=recorded)
+
+    def _grounded(self, state: Floats, samples: Integers, n_time: int) -> Flown:
+        """Nothing flown."""
+        n_rows = sum(len(self._program.outputs[name]) for name in self._recorded)
+        tile = np.full((n_time, n_rows, state.shape[1]), np.nan)
+        return Flown(state=state.copy(), samples=samples.copy(), recorded=_split(tile, self._program, self._recorded))
 
 
 def _padded(rows: Floats, padding: int) -> Floats:

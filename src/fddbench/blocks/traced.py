@@ -169,7 +169,9 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
             return self.condition()
         if wanted in "iu" and not self.boolean:
             trouble("a traced number cannot become an integer", "use np.floor or np.rint and stay with floats")
-        return self.number().copy() if wanted in "fiu" else trouble(f"astype({kind})", "stay with float and bool")
+        if wanted not in "fiu":
+            trouble(f"astype({kind})", "stay with float and bool")
+        return self.number().copy()
 
     def sum(self, axis: Any = None, **options: Any) -> Any:
         """Sum left to right; of true and false, how many are true."""
@@ -211,7 +213,9 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
 
     def __array__(self, *_: Any, **__: Any) -> Any:
         trouble(
-            "a NumPy function wants the numbers of a traced value", "use functions that NumPy dispatches, or np.where"
+            "a traced value is written into a plain array, used as an index of one, or given to a function that wants "
+            "its numbers",
+            "build arrays with np.stack or np.concatenate, look up with blocks.functions.interpolate, choose with np.where",
         )
 
 
