@@ -74,7 +74,5 @@ def test_every_surface_has_its_own_limits_and_every_case_its_own_bits():
     assert together[:, 0].tolist() == pytest.approx([0.4, 0.2])
     assert together[1, 1] == 0.0
     assert together[0, 2] == pytest.approx(-0.3 * (1 - np.exp(-0.14)))  # the command is limited to the travel first
-    alone = np.concatenate(
-        [surface.step(y[:, [i]], u[:, [i]], low[:, [i]], high[:, [i]]) for i in range(3)], axis=1
-    )
+    alone = np.concatenate([surface.step(y[:, [i]], u[:, [i]], low[:, [i]], high[:, [i]]) for i in range(3)], axis=1)
     assert together.tobytes() == alone.tobytes()

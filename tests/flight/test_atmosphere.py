@@ -42,7 +42,7 @@ def test_literature_published_trim_point():
 
 
 def test_literature_knot_and_foot():
-    assert isa.KT_M_S == pytest.approx(0.514444, abs=1e-6)
+    assert pytest.approx(0.514444, abs=1e-6) == isa.KT_M_S
     assert isa.FT_M == 0.3048
 
 

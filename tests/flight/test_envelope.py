@@ -24,9 +24,7 @@ def test_lift_carries_the_weight(mass, altitude, v_cas):
 
 @given(masses, altitudes, speeds, st.floats(1e3, 50e3))
 def test_a_lighter_aircraft_flies_wherever_a_heavier_one_does(mass, altitude, v_cas, less):
-    heavy, light = (
-        envelope.infeasible_reasons(one(m), one(altitude), one(v_cas))[0] for m in (mass, mass - less)
-    )
+    heavy, light = (envelope.infeasible_reasons(one(m), one(altitude), one(v_cas))[0] for m in (mass, mass - less))
     assert light == "" or heavy != ""
 
 

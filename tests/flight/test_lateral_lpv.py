@@ -153,7 +153,7 @@ def test_27_of_the_108_points_of_table_5_cannot_be_flown():
     reasons = infeasible_reasons(mass, altitude, v_cas)
     assert sum(reason != "" for reason in reasons) == 27
     # X_cg takes no part in it: three points each
-    assert all(len({reasons[i] for i in np.flatnonzero((TABLE_5[[0, 2, 3]].T == p).all(axis=1))}) == 1
+    assert all(len({reasons[i] for i in np.flatnonzero((p == TABLE_5[[0, 2, 3]].T).all(axis=1))}) == 1
                for p in TABLE_5[[0, 2, 3]].T)  # fmt: skip
 
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from fddbench.reporting.figures import detection_curve, envelope, label
 from fddbench.reporting.pictures import thinned
-from fddbench.reporting.signals import window, worst_case
+from fddbench.reporting.signals import signal_panels, window, worst_case
 
 
 @given(st.lists(st.none() | st.floats(0, 10), min_size=1, max_size=30))
@@ -62,3 +62,11 @@ def test_envelope_shows_only_what_varies(make_rows):
     rows = make_rows(("jam_a",), ("d",), 5)
     assert envelope(rows.drop(columns=["p_v_cas_kt", "p_x_cg_ratio"])) is not None
     assert envelope(rows[["case", "status", "p_mass_kg"]]) is None
+
+
+def test_a_threshold_lies_with_the_signal_recorded_before_it():
+    names = ("n_declared", "ratio", "reconstruction_deg_s", "threshold_deg_s", "deviation_deg_s")
+    expected = [["reconstruction_deg_s", "threshold_deg_s"], ["deviation_deg_s"], ["n_declared"]]
+    assert signal_panels(dict.fromkeys(names, np.zeros((1, 1)))) == expected
+    plain = dict.fromkeys(("n_declared", "ratio", "energy"), np.zeros((1, 1)))
+    assert signal_panels(plain) == [["ratio"], ["energy"], ["n_declared"]]

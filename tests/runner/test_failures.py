@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
+from tests.runner.conftest import TEXT, write
 
 from fddbench.campaign.load import read_campaign
 from fddbench.interfaces import Verdict
 from fddbench.runner.assembly import Assembly, assemble
 from fddbench.runner.work import rows_and_events
-from tests.runner.conftest import TEXT, write
 
 
 class Faulty:
@@ -48,7 +48,9 @@ def sound(assembly):
     return rows_and_events(assembly, np.arange(assembly.plan.n_cases))[0]
 
 
-@pytest.mark.parametrize(("wrong", "status", "reason"), [(_raise_for_heavy, "error", "ValueError: too heavy"), (_nan, "nonfinite", "finite")])
+@pytest.mark.parametrize(
+    ("wrong", "status", "reason"), [(_raise_for_heavy, "error", "ValueError: too heavy"), (_nan, "nonfinite", "finite")]
+)
 def test_a_wrong_detector_is_a_status_of_its_own_rows_only(assembly, sound, wrong, status, reason):
     rows, events = _flown(assembly, wrong)
     mine = [row for row in rows if row["detector"] == "wrong"]

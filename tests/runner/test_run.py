@@ -9,13 +9,13 @@ import sys
 import time
 
 import pytest
+from tests.runner.conftest import TEXT, write
 
 from fddbench import load
 from fddbench.campaign.load import read_campaign
 from fddbench.errors import ResultsError
 from fddbench.results import manifest
 from fddbench.runner.run import run_campaign
-from tests.runner.conftest import TEXT, write
 
 
 def test_a_second_run_finds_everything_done(everything, tmp_path):
@@ -100,7 +100,9 @@ def test_interrupted_or_killed_it_continues_to_the_same_rows(everything, tmp_pat
     text = TEXT.replace("duration_s: 3.0", "duration_s: 12.0").replace("runs: 2", "runs: 12")
     path, out = write(tmp_path, text), tmp_path / "out"
     command = [sys.executable, "-m", "fddbench", "run", str(path), "--out", str(out), "--jobs", "2"]
-    process = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True, start_new_session=True)
+    process = subprocess.Popen(
+        command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True, start_new_session=True
+    )
     while not ((out / "manifest.jsonl").exists() and (out / "manifest.jsonl").stat().st_size):
         assert process.poll() is None
         time.sleep(0.02)

@@ -17,6 +17,19 @@ from fddbench.runner.replay import replay, sampled_cases
 
 __all__ = ["report_data"]
 
+_SETTINGS = (
+    "name",
+    "about",
+    "benchmark",
+    "plant",
+    "voter",
+    "sensors",
+    "wind",
+    "purpose",
+    "seed",
+    "sample_s",
+    "substeps",
+)
 _SHOWN = ("r_deg_s", "r_voted_deg_s")
 _AFTER_S, _LEAST_S = 3.0, 5.0
 
@@ -31,7 +44,7 @@ def report_data(folder: Path) -> ReportData:
     """
     provenance, rows = provenance_of(folder), load(folder)
     campaign = read_campaign(folder / "campaign.yaml")
-    content: dict[str, Any] = yaml.safe_load(campaign.text)
+    content: dict[str, Any] = {name: getattr(campaign, name) for name in _SETTINGS} | yaml.safe_load(campaign.text)
     chosen = sampled_cases(rows, seed=campaign.seed)
     return ReportData(
         campaign=content,

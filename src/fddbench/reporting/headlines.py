@@ -44,7 +44,7 @@ def findings(summary: pd.DataFrame) -> list[Sentence]:
     if by_detector:
         found.append(("False alarms", [_alarms(str(name), group) for name, group in by_detector.items()]))
     if faulty:
-        found.append(("Detected late or never", _each(faulty, "missed", "faulty")))
+        found.append(("Detected late or never", _each(faulty, "missed", "uncensored faulty")))
         found.append(("True detection", _each(faulty, "true_detection", "faulty")))
         found.append(("Slowest against its limit", [_slowest(str(name), group) for name, group in faulty.items()]))
     return found

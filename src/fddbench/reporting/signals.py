@@ -1,6 +1,6 @@
 """Pictures of re-flown cases: sensors, residual against threshold, and the verdict, over time."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["recording_picture", "window", "worst_case"]
+__all__ = ["recording_picture", "signal_panels", "window", "worst_case"]
 
 _MOST_PANELS = 3
 
@@ -22,7 +22,7 @@ _MOST_PANELS = 3
 def recording_picture(recording: Recording, rows: pd.DataFrame) -> str:
     """Picture of one scenario: a line of panels per detector, thin lines for all cases, the worst one highlighted."""
     detectors = list(recording.detectors)
-    panels = {name: list(_panels(recording.detectors[name])) for name in detectors}
+    panels = {name: signal_panels(recording.detectors[name]) for name in detectors}
     sensors = _sensors(recording.signals)
     widest = max((len(of) for of in panels.values()), default=0)
     first, last = window(recording)
@@ -35,7 +35,7 @@ def recording_picture(recording: Recording, rows: pd.DataFrame) -> str:
             _draw_sensors(figure.add_subplot(grid[:, 0]), recording, sensors, worst[0] if worst else 0, kept)
         for i, name in enumerate(detectors):
             for j, signals in enumerate(panels[name]):
-                axes = figure.add_subplot(grid[i, j + bool(sensors)])
+                axes = figure.add_subplot(grid[i, -1 if signals == ["n_declared"] else j + bool(sensors)])
                 _draw_panel(axes, recording, name, signals, worst[i], kept)
                 axes.set_title(name if j == 0 else "", color=colour(i))
 
@@ -73,20 +73,17 @@ def _changes(n_declared: Floats) -> Any:
     return np.flatnonzero(np.any(np.abs(np.nan_to_num(steps)) > 0, axis=1))
 
 
-def _panels(signals: Mapping[str, Floats]) -> Iterator[list[str]]:
-    """Yield the signals that share a panel: a threshold lies with those of its unit, the verdict comes last."""
-    inside = [name for name in signals if name not in ("n_declared", "ratio")]
-    thresholds = [name for name in inside if "threshold" in name]
-    shown = [name for name in inside if name not in thresholds]
-    if not thresholds or not shown:
-        shown.append("ratio")
-    for name in shown[:_MOST_PANELS]:
-        yield [name, *(other for other in thresholds if _unit(other) == _unit(name))]
-    yield ["n_declared"]
-
-
-def _unit(name: str) -> str:
-    return label(name).partition("[")[2]
+def signal_panels(signals: Mapping[str, Floats]) -> list[list[str]]:
+    """Return the signals of each panel: a threshold lies with the signal recorded before it, the verdict comes last."""
+    panels: list[list[str]] = []
+    for name in signals:
+        if "threshold" in name and panels:
+            panels[-1].append(name)
+        elif "threshold" not in name and name not in ("n_declared", "ratio"):
+            panels.append([name])
+    if not any(len(panel) > 1 for panel in panels):
+        panels.insert(0, ["ratio"])
+    return [*panels[:_MOST_PANELS], ["n_declared"]]
 
 
 def _sensors(signals: Mapping[str, Floats]) -> list[str]:
@@ -103,7 +100,7 @@ def _draw_sensors(axes: "Axes", recording: Recording, names: list[str], case: in
     for i, name in enumerate(names):
         time_s, value = thinned(recording.time_s[kept], recording.signals[name][kept, case : case + 1])
         style: Any = ("-", (0, (4, 1.5)), (0, (1, 1)), "-.")[i]
-        axes.plot(time_s, value, color=(INK, "#c58b00", "#7b5ea7", MUTED)[i], ls=style, lw=1.2, label=f"sensor {i + 1}")
+        axes.plot(time_s, value, color=(INK, "#c58b00", "#7b5ea7", MUTED)[i], ls=style, lw=1.2, label=str(i + 1))
     low, high = axes.get_ylim()
     axes.set_ylim(low, high + 0.18 * (high - low))
     axes.legend(loc="upper left", ncols=len(names), handlelength=1.6, columnspacing=1.0, borderaxespad=0.1)

@@ -51,7 +51,7 @@ def _result(line: Line) -> list[Cell]:
     exposure = f"{line['exposure_h']:.3g} h" if line["exposure_h"] else ""
     return [
         Cell(line["detector"]),
-        Cell(f"{count(line['flown'])} of {count(line['flights'])}", ", ".join(lost)),
+        Cell(f"{count(line['flown'])}\u00a0of\u00a0{count(line['flights'])}", ", ".join(lost)),
         _counted(line, "over_declared", alarm=True),
         _share(line, "true_detection"),
         _counted(line, "false_alarm", alarm=True),

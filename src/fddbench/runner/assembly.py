@@ -128,9 +128,7 @@ class Assembly:
         drawn = [philox.normals((BEFORE_START, c, run, self.plan.stream), key) for c in self.loop.start_consumers]
         return np.concatenate(drawn)
 
-    def _per_scenario(
-        self, rows_of: Callable[[PlannedScenario, Cases], Floats], scenario: Cases, run: Cases
-    ) -> Floats:
+    def _per_scenario(self, rows_of: Callable[[PlannedScenario, Cases], Floats], scenario: Cases, run: Cases) -> Floats:
         """Rows made scenario by scenario, put back into the order of the cases."""
         parts = {int(s): rows_of(self.plan.scenarios[s], run[scenario == s]) for s in np.unique(scenario)}
         n_rows = len(next(iter(parts.values()))) if parts else 0

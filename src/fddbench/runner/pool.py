@@ -4,7 +4,7 @@ import ctypes
 import os
 import signal
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from typing import Any
 
 from fddbench.errors import FddbenchError
@@ -17,7 +17,7 @@ __all__ = ["fly_all"]
 _ATTEMPTS = 3
 
 
-def fly_all(folder: str, campaign_sha256: str, chunks: Sequence[Spans], *, jobs: int) -> Iterator[Shard]:
+def fly_all(folder: str, campaign_sha256: str, chunks: Sequence[Spans], *, jobs: int) -> Generator[Shard, None, None]:
     """Shards in the order in which they finish.
 
     With one job everything happens in this process. A killed worker aborts the pool but loses nothing that is written:

@@ -101,7 +101,11 @@ class _Tape:
         self.assembly, self.last, self.kept = assembly, last, signals
         self.shape = (last + 1, len(batch.cases))
         self.signals: dict[str, Floats] = {}
-        self.detectors: dict[str, dict[str, Floats]] = {name: {} for name in assembly.detectors}
+        # all signals from the beginning: a detector that raises leaves a gap, not a missing signal
+        self.detectors: dict[str, dict[str, Floats]] = {
+            name: {signal: np.full(self.shape, np.nan) for signal in ("n_declared", "ratio", *detector.recorded)}
+            for name, detector in assembly.detectors.items()
+        }
 
     def shortened(self, batch: Batch) -> Batch:
         """The same batch, scored and flown only as far as the tape goes."""

@@ -2,7 +2,7 @@
 
 import time
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,7 +11,7 @@ from fddbench.results import manifest
 from fddbench.results.folder import claim, locked
 from fddbench.results.provenance import collect
 from fddbench.runner.assembly import assemble
-from fddbench.runner.chunks import CHUNK, cut, missing, spans
+from fddbench.runner.chunks import CHUNK, Spans, cut, missing, spans
 from fddbench.runner.pool import fly_all
 
 __all__ = ["Progress", "RunReport", "run_campaign"]
@@ -98,34 +98,54 @@ def run_campaign(
         claim(folder, files=campaign.files(), provenance=_provenance(campaign), fresh=fresh)
         done = manifest.shards(folder, intact=True)
         manifest.keep(folder, done)
-        statuses = Counter[str]()
         left = missing(plan.n_cases, [shard.cases for shard in done])
+        statuses = Counter[str]()
         for shard in done:
             statuses.update(shard.statuses)
-        flown, interrupted = 0, False
+        told = _Told(before=plan.n_cases - len(left), total=plan.n_cases, statuses=statuses, progress=progress)
         chunks = [spans(part) for part in cut(plan, left, size=chunk, jobs=jobs)]
-        shards = fly_all(str(folder), campaign.sha256, chunks, jobs=jobs)
-        try:
-            for shard in shards:
-                manifest.append(folder, shard)
-                flown += sum(count for _, count in shard.cases)
-                statuses.update(shard.statuses)
-                if progress is not None:
-                    done_now = plan.n_cases - len(left) + flown
-                    progress(Progress(flown=flown, done=done_now, total=plan.n_cases, statuses=statuses))
-        except KeyboardInterrupt:
-            interrupted = True
-        finally:
-            shards.close()  # type: ignore[attr-defined]
+        interrupted = _fly(folder, campaign, chunks, jobs=jobs, told=told)
     return RunReport(
         folder=folder,
-        flights=flown,
+        flights=told.flown,
         continued=plan.n_cases - len(left),
         total=plan.n_cases,
         statuses=statuses,
         interrupted=interrupted,
         wall_s=time.monotonic() - begun,
     )
+
+
+@dataclass(kw_only=True)
+class _Told:
+    """Counts what comes back, and passes it on."""
+
+    before: int
+    total: int
+    statuses: Counter[str]
+    progress: Callable[[Progress], None] | None
+    flown: int = 0
+
+    def __call__(self, shard: manifest.Shard) -> None:
+        self.flown += sum(count for _, count in shard.cases)
+        self.statuses.update(shard.statuses)
+        if self.progress is not None:
+            done = self.before + self.flown
+            self.progress(Progress(flown=self.flown, done=done, total=self.total, statuses=self.statuses))
+
+
+def _fly(folder: Path, campaign: Campaign, chunks: Sequence[Spans], *, jobs: int, told: _Told) -> bool:
+    """Fly chunks and list their shards as they come; True when Ctrl-C came first."""
+    shards = fly_all(str(folder), campaign.sha256, chunks, jobs=jobs)
+    try:
+        for shard in shards:
+            manifest.append(folder, shard)
+            told(shard)
+    except KeyboardInterrupt:
+        return True
+    finally:
+        shards.close()
+    return False
 
 
 def _provenance(campaign: Campaign) -> dict[str, object]:

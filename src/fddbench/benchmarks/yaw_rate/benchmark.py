@@ -40,7 +40,5 @@ class YawRate:
 
     def loop(self, options: Options) -> LateralLoop:
         """Closed loop for these options."""
-        units = SensorUnits(
-            admissible_deg_s=self.admissible_range_deg_s, sensor_range_deg_s=self.sensor_range_deg_s
-        )
+        units = SensorUnits(admissible_deg_s=self.admissible_range_deg_s, sensor_range_deg_s=self.sensor_range_deg_s)
         return LateralLoop(options, self.sites, units)

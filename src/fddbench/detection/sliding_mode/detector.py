@@ -41,7 +41,7 @@ class SlidingMode:
     """
 
     about = "LPV sliding-mode observer with flag, adaptive threshold, isolation and energy monitor"
-    recorded = ("reconstruction_deg_s", "threshold_deg_s", "deviation_deg_s")
+    recorded = ("reconstruction_deg_s", "threshold_deg_s", "deviation_deg_s", "flag_threshold_deg_s")
     Gains = SlidingModeGains
 
     def __init__(self, gains: SlidingModeGains, bus: Bus) -> None:
@@ -105,7 +105,12 @@ class SlidingMode:
             lagged=lagged, observer=observer, reconstruction_deg_s=reconstruction, threshold_deg_s=level,
             energy=energy_state, held_samples=held, n_declared=n_now, declared=declared,
         )  # fmt: skip
-        shown = {"reconstruction_deg_s": reconstruction, "threshold_deg_s": threshold, "deviation_deg_s": apart}
+        shown = {
+            "reconstruction_deg_s": reconstruction,
+            "threshold_deg_s": threshold,
+            "deviation_deg_s": apart,
+            "flag_threshold_deg_s": np.full_like(apart, self.gains.flag_threshold_deg_s),
+        }
         return after, Verdict(declared, ratio, signals=shown)
 
     def _reconstruct(self, x: SimpleNamespace, m: SimpleNamespace) -> tuple[Rows, Rows, Rows]:

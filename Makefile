@@ -1,0 +1,42 @@
+# Two commands matter: `make demo` shows what fddbench does, `make test` checks everything.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+
+.PHONY: demo test lint wheel scores clean
+
+demo: $(VENV)/ready
+	$(BIN)/fddbench run campaigns/smoke.yaml --fresh
+	$(BIN)/fddbench report results/smoke
+
+test: $(VENV)/ready-dev lint
+	$(BIN)/python -m pytest
+
+lint: $(VENV)/ready-dev
+	$(BIN)/ruff format --check src tests detectors
+	$(BIN)/ruff check src tests detectors
+	$(BIN)/lint-imports
+	$(BIN)/mypy
+
+# the wheel, in an empty environment, from a folder outside the repository
+wheel:
+	bash .ci/wheel
+
+# our scores, kept under version control; read the difference before you commit it
+scores: $(VENV)/ready
+	for name in smoke yaw_rate_table8; do \
+	  $(BIN)/fddbench run campaigns/$$name.yaml --fresh --quiet && mkdir -p reports/$$name \
+	  && $(BIN)/fddbench scores results/$$name > reports/$$name/scores.yaml || exit 1; done
+
+$(VENV)/ready: pyproject.toml
+	$(PYTHON) -c "import sys; sys.exit(None if sys.version_info >= (3, 11) else 'fddbench needs Python 3.11 or newer: make PYTHON=python3.12 ...')"
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e .
+	touch $@
+
+$(VENV)/ready-dev: $(VENV)/ready
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[dev]"
+	touch $@
+
+clean:
+	rm -rf $(VENV) results dist build .mypy_cache .ruff_cache .pytest_cache .hypothesis
