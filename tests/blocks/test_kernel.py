@@ -9,6 +9,7 @@ import pytest
 
 from fddbench.blocks import functions, llvm
 from fddbench.blocks.kernel import Addresses, Compiled, Interpreted, build
+from fddbench.blocks.operations import pick
 from fddbench.blocks.program import Program, trace
 from fddbench.blocks.ring import ring
 from fddbench.errors import FddbenchError
@@ -117,6 +118,27 @@ def test_nothing_to_fly(backend: str) -> None:
     assert np.array_equal(still.state, _flight(3)["state"])
     assert still.recorded["seen"].shape == (0, 3, 3)
     assert kernel.fly(**_flight(0), first=0, end=5).recorded["seen"].shape == (5, 3, 0)
+
+
+def _almost_rings(state: Any, sample: Any) -> dict[str, Any]:
+    """Selects that look like rings: turns that never come, come late, are missing or not whole; picks outside."""
+    a, b, c, d = state[:3], state[3:6], state[6:9], state[9:12]
+    half = np.stack([np.where(sample * 0.5 == j, sample, a[j]) for j in range(3)])
+    late = np.stack([np.where(sample - 4.0 == j, sample, b[j]) for j in range(3)])
+    partial = np.stack([np.where(sample - 2.0 == j + 1.0, sample, c[j]) for j in range(3)])
+    other = np.stack([np.where(sample == float(2 - j), sample, d[j]) for j in range(3)])
+    seen = np.stack([pick(sample - 3.0, *a), pick(sample * 0.3, *b), pick(sample, c[2], c[1], c[0]), pick(d[0], *d)])
+    return {"state": np.concatenate([half, late, partial, other]), "seen": seen}
+
+
+def test_what_looks_like_a_ring(where: Any, same: Any) -> None:
+    chunk = _flight(5) | {"samples": np.full(5, 12)}
+    program = trace(_almost_rings, state=N_STATE, sample=0)
+    found, expected = (
+        build(program, recorded=("seen",), **how).fly(**chunk, first=0, end=12) for how in (where, {"backend": "numpy"})
+    )
+    assert same(found.state, expected.state)
+    assert same(found.recorded["seen"], expected.recorded["seen"])
 
 
 def test_rings_are_addressed_directly() -> None:

@@ -162,7 +162,7 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
         """As NumPy's."""
         return self.like(self.ids.transpose(*axes))
 
-    def astype(self, kind: Any, **_: Any) -> "Traced":
+    def astype(self, kind: Any, **_: Any) -> Any:
         """To float from anything; to integers from true and false only."""
         wanted = np.dtype(kind).kind
         if wanted == "b":
