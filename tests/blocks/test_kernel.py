@@ -128,7 +128,7 @@ def _almost_rings(state: Any, sample: Any) -> dict[str, Any]:
     partial = np.stack([np.where(sample - 2.0 == j + 1.0, sample, c[j]) for j in range(3)])
     other = np.stack([np.where(sample == float(2 - j), sample, d[j]) for j in range(3)])
     seen = np.stack([pick(sample - 3.0, *a), pick(sample * 0.3, *b), pick(sample, c[2], c[1], c[0]), pick(d[0], *d)])
-    return {"state": np.concatenate([half, late, partial, other]), "seen": seen}
+    return {"state": np.concatenate([half, late, partial, other]), "seen": np.concatenate([state, seen])}
 
 
 def test_what_looks_like_a_ring(where: Any, same: Any) -> None:
