@@ -10,8 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from fddbench.blocks.functions import cos, log, sin
+from fddbench.blocks.layout import Rows
 
-__all__ = ["PER_DRAW", "normals", "philox4x32", "uniforms"]
+__all__ = ["PER_DRAW", "box_muller", "normals", "philox4x32", "uniforms"]
 
 Words = npt.NDArray[np.uint64]
 
@@ -49,13 +50,18 @@ def philox4x32(counter: tuple[Any, Any, Any, Any], key: int) -> tuple[Words, Wor
 
 
 def uniforms(counter: tuple[Any, Any, Any, Any], key: int) -> npt.NDArray[np.float64]:
-    """Four uniform numbers of the open interval (0, 1) per counter, (4, ...), each of 32 bits: ``(word + 1/2) / 2^32``."""
+    """Four uniform numbers of the open interval (0, 1) per counter, (4, ...), of 32 bits each: (word + 1/2) / 2^32."""
     return (np.stack(philox4x32(counter, key)).astype(float) + 0.5) * _UNIT
 
 
 def normals(counter: tuple[Any, Any, Any, Any], key: int) -> npt.NDArray[np.float64]:
     """Four standard normal numbers per counter, (4, ...), by Box-Muller; the largest possible is 6.76 sigma."""
-    u = uniforms(counter, key)
+    drawn: npt.NDArray[np.float64] = box_muller(uniforms(counter, key))
+    return drawn
+
+
+def box_muller(u: Rows) -> Rows:
+    """Standard normal numbers, (2 n, ...), of as many uniform ones."""
     radius = np.sqrt(-2.0 * log(u[0::2]))
     angle = (2.0 * np.pi) * u[1::2]
     out = np.empty_like(u)

@@ -1,0 +1,44 @@
+"""Compiled objects on disk: a kernel is compiled once per machine and loaded in milliseconds afterwards."""
+
+import os
+import tempfile
+from hashlib import sha256
+from pathlib import Path
+
+__all__ = ["folder", "key", "load", "store"]
+
+_DIGEST = 32
+
+
+def folder() -> Path:
+    """Where objects are kept: ``$FDDBENCH_CACHE``, else ``fddbench`` in the user's cache directory."""
+    chosen = os.environ.get("FDDBENCH_CACHE")
+    if chosen:
+        return Path(chosen)
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "fddbench"
+
+
+def key(*parts: str) -> str:
+    """Name of an entry: sha256 of everything that the machine code depends on."""
+    return sha256("\0".join(parts).encode()).hexdigest()
+
+
+def load(name: str) -> bytes | None:
+    """Object stored under a name; None when there is none or when it is not what was stored."""
+    try:
+        content = (folder() / f"{name}.o").read_bytes()
+    except OSError:
+        return None
+    digest, body = content[:_DIGEST], content[_DIGEST:]
+    return body if sha256(body).digest() == digest else None
+
+
+def store(name: str, body: bytes) -> None:
+    """Keep an object; a full or read-only disk is no reason to stop."""
+    try:
+        folder().mkdir(parents=True, exist_ok=True)
+        with tempfile.NamedTemporaryFile(dir=folder(), delete=False) as file:
+            file.write(sha256(body).digest() + body)
+        Path(file.name).replace(folder() / f"{name}.o")
+    except OSError:
+        return

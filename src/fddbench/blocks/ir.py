@@ -1,0 +1,121 @@
+"""LLVM text of a kernel: a loop over blocks of W cases around a loop over samples."""
+
+from fddbench.blocks import draws
+from fddbench.blocks.body import Body, Spec
+from fddbench.blocks.emit import Vectors
+
+__all__ = ["write"]
+
+_POINTERS = ("state", "constants", "samples", "run", "flight", "scenario", "tile", "work")
+
+
+def write(spec: Spec, lanes: int, *, rounds: bool) -> str:
+    """LLVM module with one function ``fly``.
+
+    Its arguments: padded number of cases n, first sample, sample to stop before, key; then addresses of state
+    (n_state, n), constants (n_constant, n), samples to fly (n,), run, flight and scenario words (n,), the tile
+    (n_time, n_recorded, n) and the workspace. Numbers are float64 and int64, the words uint64.
+    """
+    o = Vectors(lanes, rounds=rounds)
+    body = Body(spec, o)
+    pointers = ", ".join(f"ptr noalias noundef %{name}" for name in _POINTERS)
+    o.do(f"define void @fly(i64 %n, i64 %first, i64 %end, i64 %key, {pointers}) nounwind {{")
+    o.do("entry:")
+    draws.keys(o)
+    o.do("br label %block")
+    _block(o, spec)
+    body.prologue()
+    o.do("br label %sample")
+    o.do("sample:")
+    o.do("%k = phi i64 [%first, %prologue], [%k_next, %more]")
+    o.do(f"%active = phi {o.M} [%flying, %prologue], [%still, %more]")
+    o.do("%k_word = and i64 %k, 4294967295")
+    o.do("%time = sitofp i64 %k to double")
+    body.sample()
+    _ending(o, body, spec)
+    o.do("next_block:")
+    o.do(f"%o_next = add i64 %o, {lanes}")
+    o.do("%blocks_left = icmp slt i64 %o_next, %n")
+    o.do("br i1 %blocks_left, label %block, label %done")
+    o.do("done:")
+    o.do("ret void")
+    return "\n".join(o.lines) + "\n}\n" + o.declarations() + "\n"
+
+
+def _block(o: Vectors, spec: Spec) -> None:
+    """Start of a block of cases at ``%o``: who flies, their state copied into the workspace, their random words."""
+    o.do("block:")
+    o.do("%o = phi i64 [0, %entry], [%o_next, %next_block]")
+    o.do("%samples_at = getelementptr inbounds i64, ptr %samples, i64 %o")
+    o.do(f"%lasts = load {o.I}, ptr %samples_at, align 8")
+    o.do(f"%flying = icmp slt {o.I} {o.spread('i64', '%first')}, %lasts")
+    _branch_if_any(o, "%flying", "start", "next_block")
+    o.do("start:")
+    lines = (f"%copied = load {o.V}, ptr %there_copy, align 8", f"store {o.V} %copied, ptr %here_copy, align {o.bytes}")
+    _state_loop(o, spec.n_state, "copy", lines, before="start", after="prologue")
+    o.do("prologue:")
+    for name in ("run", "flight", "scenario"):
+        place = o.let(f"getelementptr inbounds i64, ptr %{name}, i64 %o")
+        o.do(f"%{name}_words = load {o.I}, ptr {place}, align 8")
+
+
+def _ending(o: Vectors, body: Body, spec: Spec) -> None:
+    """End of a sample: write back the lanes whose flight is over, and go on while there are others."""
+    o.do("%k_next = add i64 %k, 1")
+    over = o.let(f"icmp sle {o.I} %lasts, {o.spread('i64', '%k_next')}")
+    for node in spec.program.outputs.get("finished", ()):
+        over = o.let(f"or {o.M} {over}, {o.operation('ne', body.value(node), o.number(0.0))}")
+    o.do(f"%ending = and {o.M} %active, {over}")
+    _branch_if_any(o, "%ending", "landing", "go_on")
+    o.do("landing:")
+    now = o.let(f"load {o.I}, ptr %samples_at, align 8")
+    counts = o.let(f"select {o.M} %ending, {o.I} {o.spread('i64', '%k_next')}, {o.I} {now}")
+    o.do(f"store {o.I} {counts}, ptr %samples_at, align 8")
+    _write_back(o, spec, "land", "%ending", before="landing", after="landed")
+    o.do("landed:")
+    o.do(f"%others = and {o.M} %active, {o.operation('not', '%ending')}")
+    _branch_if_any(o, "%others", "go_on", "next_block")
+    o.do("go_on:")
+    o.do(f"%still = phi {o.M} [%active, %sample], [%others, %landed]")
+    o.do("%paused = icmp sge i64 %k_next, %end")
+    o.do("br i1 %paused, label %pause, label %more")
+    o.do("more:")
+    o.do("br label %sample")
+    o.do("pause:")
+    _write_back(o, spec, "keep", "%still", before="pause", after="next_block")
+
+
+def _write_back(o: Vectors, spec: Spec, label: str, mask: str, *, before: str, after: str) -> None:
+    """State of some lanes from the workspace to memory."""
+    lines = (
+        f"%new_{label} = load {o.V}, ptr %here_{label}, align {o.bytes}",
+        f"%old_{label} = load {o.V}, ptr %there_{label}, align 8",
+        f"%chosen_{label} = select {o.M} {mask}, {o.V} %new_{label}, {o.V} %old_{label}",
+        f"store {o.V} %chosen_{label}, ptr %there_{label}, align 8",
+    )
+    _state_loop(o, spec.n_state, label, lines, before=before, after=after)
+
+
+def _state_loop(o: Vectors, rows: int, label: str, lines: tuple[str, ...], *, before: str, after: str) -> None:
+    """Loop over state rows; the lines see ``%here_<label>`` in the workspace and ``%there_<label>`` in memory."""
+    if not rows:
+        o.do(f"br label %{after}")
+        return
+    o.do(f"br label %{label}")
+    o.do(f"{label}:")
+    o.do(f"%row_{label} = phi i64 [0, %{before}], [%next_{label}, %{label}]")
+    o.do(f"%here_{label} = getelementptr inbounds {o.V}, ptr %work, i64 %row_{label}")
+    o.do(f"%index_{label} = mul i64 %row_{label}, %n")
+    o.do(f"%place_{label} = add i64 %index_{label}, %o")
+    o.do(f"%there_{label} = getelementptr inbounds double, ptr %state, i64 %place_{label}")
+    for line in lines:
+        o.do(line)
+    o.do(f"%next_{label} = add i64 %row_{label}, 1")
+    o.do(f"%more_{label} = icmp slt i64 %next_{label}, {rows}")
+    o.do(f"br i1 %more_{label}, label %{label}, label %{after}")
+
+
+def _branch_if_any(o: Vectors, mask: str, yes: str, no: str) -> None:
+    """Branch on whether any lane of a mask is set."""
+    bits = o.let(f"bitcast {o.M} {mask} to i{o.lanes}")
+    o.do(f"br i1 {o.let(f'icmp ne i{o.lanes} {bits}, 0')}, label %{yes}, label %{no}")

@@ -1,0 +1,111 @@
+"""Machine code through llvmlite: which processor, how many lanes, and a loaded function. Optional: see `available`."""
+
+import ctypes
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from importlib.util import find_spec
+from itertools import count
+from typing import Any
+
+from fddbench.blocks import cache as objects
+
+__all__ = ["Machine", "available", "load", "machine"]
+
+_NAMED = {
+    "x86-64": ("x86-64", "", ("sse2",), 2),
+    "nehalem": ("nehalem", "", ("sse4.2",), 2),
+    "haswell": ("haswell", "", ("avx2", "fma", "bmi2"), 4),
+}
+_ARGUMENTS = (*[ctypes.c_int64] * 3, ctypes.c_uint64, *[ctypes.c_void_p] * 8)
+_libraries = count()
+
+
+@dataclass(frozen=True)
+class Machine:
+    """A processor to compile for.
+
+    Attributes
+    ----------
+    triple, cpu, features : str
+        As LLVM names them.
+    lanes : int
+        Runs side by side when nothing else is asked for: two hardware vectors.
+    rounds : bool
+        Rounds to whole numbers in one instruction.
+    """
+
+    triple: str
+    cpu: str
+    features: str
+    lanes: int
+    rounds: bool
+
+    @property
+    def key(self) -> str:
+        """Everything here that machine code depends on."""
+        return f"{self.triple} {self.cpu} {self.features}"
+
+
+def available() -> bool:
+    """Whether llvmlite is installed."""
+    return find_spec("llvmlite") is not None
+
+
+@cache
+def _binding() -> Any:
+    """Llvmlite's binding, ready for this processor; imported at the first compilation and not before."""
+    import llvmlite.binding as binding
+
+    binding.initialize_native_target()
+    binding.initialize_native_asmprinter()
+    return binding
+
+
+@cache
+def machine(name: str = "host") -> Machine | None:
+    """The processor called ``host``, ``x86-64``, ``nehalem`` or ``haswell``; None when this one cannot run its code."""
+    binding = _binding()
+    triple, own = binding.get_process_triple(), binding.get_host_cpu_features()
+    if name == "host":
+        width = 8 if own.get("avx512f") and own.get("avx512dq") else 4 if own.get("avx") else 2
+        rounds = bool(own.get("sse4.1")) or not triple.startswith("x86")
+        return Machine(triple, binding.get_host_cpu_name(), own.flatten(), 2 * width, rounds)
+    cpu, features, needed, width = _NAMED[name]
+    if not triple.startswith("x86_64") or not all(own.get(feature) for feature in needed):
+        return None
+    return Machine(triple, cpu, features, 2 * width, name != "x86-64")
+
+
+def load(text: str, target: Machine) -> Callable[..., None]:
+    """The function ``fly`` of an LLVM module, from the cache or compiled now; calls release the GIL."""
+    binding = _binding()
+    name = objects.key(text, ".".join(map(str, binding.llvm_version_info)), target.key)
+    body = objects.load(name)
+    if body is None:
+        body = compile_object(text, target)
+        objects.store(name, body)
+    tracker = binding.JITLibraryBuilder().add_object_img(body).add_current_process().export_symbol("fly")
+    library = tracker.link(_jit(), f"fddbench_{next(_libraries)}")
+    address = ctypes.CFUNCTYPE(None, *_ARGUMENTS)(library["fly"])
+
+    def fly(*arguments: Any, _keep: Any = library) -> None:
+        address(*arguments)
+
+    return fly
+
+
+@cache
+def _jit() -> Any:
+    return _binding().create_lljit_compiler()
+
+
+def compile_object(text: str, target: Machine, optimise: int = 2) -> bytes:
+    """Object file of an LLVM module."""
+    binding = _binding()
+    module = binding.parse_assembly(text)
+    module.triple = target.triple
+    maker = binding.Target.from_triple(target.triple).create_target_machine(
+        cpu=target.cpu, features=target.features, opt=optimise, reloc="pic", codemodel="small"
+    )
+    return maker.emit_object(module)  # type: ignore[no-any-return]

@@ -1,0 +1,228 @@
+"""The value type that a step sees while it is traced: it answers NumPy's protocols and remembers what was done."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from fddbench.blocks import array_functions, ufuncs
+from fddbench.blocks.graph import Graph
+from fddbench.blocks.operations import OPERATIONS, Symbolic
+from fddbench.blocks.trouble import trouble
+
+__all__ = ["Traced"]
+
+_IF = "use np.where(condition, a, b), np.minimum or np.maximum: every flight takes every step together"
+
+
+class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
+    """Array of nodes with the shape and the manners of the NumPy array it stands for, its case axis of length 1.
+
+    Parameters
+    ----------
+    graph : Graph
+        Where operations are written down.
+    ids : array of int
+        Node of each element; views of it share memory as views of an array do.
+    boolean : bool
+        Elements are true or false.
+    """
+
+    __hash__ = None  # type: ignore[assignment]
+    __array_priority__ = 1000
+
+    def __init__(self, graph: Graph, ids: npt.NDArray[np.int64], *, boolean: bool = False) -> None:
+        self.graph, self.ids, self.boolean = graph, ids, boolean
+
+    # --- what it is ---
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape of the array it stands for."""
+        return self.ids.shape
+
+    @property
+    def ndim(self) -> int:
+        """Number of axes."""
+        return self.ids.ndim
+
+    @property
+    def size(self) -> int:
+        """Number of elements."""
+        return self.ids.size
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """Boolean or float64."""
+        return np.dtype(bool if self.boolean else float)
+
+    @property
+    def T(self) -> "Traced":
+        """Transposed."""
+        return self.like(self.ids.T)
+
+    def __len__(self) -> int:
+        return len(self.ids)
+
+    def __iter__(self) -> Iterator["Traced"]:
+        return (self[j] for j in range(len(self.ids)))
+
+    def __repr__(self) -> str:
+        return f"Traced(shape={self.shape}, dtype={self.dtype})"
+
+    def like(self, ids: Any, *, boolean: bool | None = None) -> "Traced":
+        """Another value of the same trace."""
+        return Traced(self.graph, np.asarray(ids), boolean=self.boolean if boolean is None else boolean)
+
+    def lift(self, value: Any) -> "Traced":
+        """A number, plain array or traced value as a traced value of this trace."""
+        if isinstance(value, Traced):
+            return value
+        array = np.asarray(value)
+        if array.dtype.kind not in "bfiu":
+            trouble(f"{type(value).__name__} {value!r} is no array of numbers", "pass numbers, arrays or traced values")
+        boolean = array.dtype.kind == "b"
+        leaf: Any = self.graph.flag if boolean else self.graph.literal
+        ids = np.array([leaf(x) for x in array.ravel().tolist()], dtype=np.int64).reshape(array.shape)
+        return self.like(ids, boolean=boolean)
+
+    def number(self) -> "Traced":
+        """Itself, true and false as 1 and 0."""
+        if not self.boolean:
+            return self
+        ids = [self.graph.add("number", int(node)) for node in self.ids.ravel()]
+        return self.like(np.array(ids, dtype=np.int64).reshape(self.shape), boolean=False)
+
+    def condition(self) -> Any:
+        """Itself, numbers compared with 0."""
+        return self if self.boolean else ufuncs.apply(np.not_equal, self, (self, 0.0))
+
+    # --- operations ---
+    def apply(self, name: str, arguments: tuple[Any, ...]) -> Any:
+        """Operation `name` of the table on every element, operands broadcast as by NumPy."""
+        if self.graph.expand and OPERATIONS[name].numpy is None:
+            return array_functions.definition(name)(*arguments)
+        operation, lifted = OPERATIONS[name], [self.lift(argument) for argument in arguments]
+        kinds = operation.arguments if operation.arity >= 0 else "f" * len(lifted)
+        if any(kind == "b" and not value.boolean for kind, value in zip(kinds, lifted, strict=True)):
+            trouble(f"{name} needs true or false, got numbers", "compare first: (a > 0.5) & (b > 0.5)")
+        operands = [v.number() if kind == "f" else v for kind, v in zip(kinds, lifted, strict=True)]
+        columns = np.broadcast_arrays(*(operand.ids for operand in operands))
+        nodes = [self.graph.add(name, *row) for row in zip(*(c.ravel().tolist() for c in columns), strict=True)]
+        return self.like(np.array(nodes, dtype=np.int64).reshape(columns[0].shape), boolean=operation.result == "b")
+
+    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **options: Any) -> Any:
+        """Whatever NumPy's element-wise functions do."""
+        out = options.pop("out", None)
+        if method == "reduce" and ufunc in array_functions.REDUCTIONS:
+            axis = options.get("axis", 0)
+            return array_functions.reduce_axis(self, array_functions.REDUCTIONS[ufunc], axis, keepdims=False)
+        if method != "__call__" or any(value is not None for value in options.values()):
+            trouble(f"np.{ufunc.__name__} with {method} {options or ''} cannot be traced", "use the plain call")
+        result = ufuncs.apply(ufunc, self, inputs)
+        if out is None:
+            return result
+        if not isinstance(out[0], Traced):
+            trouble("a traced value cannot be written into a plain array", "build it with np.stack or np.concatenate")
+        out[0][...] = result
+        return out[0]
+
+    def __array_function__(self, func: Any, types: Any, args: Any, kwargs: Any) -> Any:
+        """Whatever NumPy's array functions do, for those in `array_functions`."""
+        handler = array_functions.HANDLERS.get(func)
+        if handler is None:
+            trouble(f"np.{func.__name__} is not among the functions that can be traced",
+                    array_functions.CURES.get(func, "write it with + - * / and np.where"))  # fmt: skip
+        return handler(self, *args, **kwargs)
+
+    # --- indexing ---
+    def __getitem__(self, key: Any) -> "Traced":
+        return self.like(self.ids[_static(key)])
+
+    def __setitem__(self, key: Any, value: Any) -> None:
+        lifted = self.lift(value)
+        if self.boolean and not lifted.boolean:
+            trouble("numbers written into true or false", "compare first, or start from a float array")
+        self.ids[_static(key)] = lifted.ids if self.boolean else lifted.number().ids
+
+    # --- methods of arrays ---
+    def reshape(self, *shape: Any) -> "Traced":
+        """As NumPy's."""
+        return self.like(self.ids.reshape(*shape))
+
+    def ravel(self) -> "Traced":
+        """As NumPy's."""
+        return self.like(self.ids.ravel())
+
+    def copy(self) -> "Traced":
+        """As NumPy's."""
+        return self.like(self.ids.copy())
+
+    def transpose(self, *axes: int) -> "Traced":
+        """As NumPy's."""
+        return self.like(self.ids.transpose(*axes))
+
+    def astype(self, kind: Any, **_: Any) -> Any:
+        """To float from anything; to integers from true and false only."""
+        wanted = np.dtype(kind).kind
+        if wanted == "b":
+            return self.condition()
+        if wanted in "iu" and not self.boolean:
+            trouble("a traced number cannot become an integer", "use np.floor or np.rint and stay with floats")
+        if wanted not in "fiu":
+            trouble(f"astype({kind})", "stay with float and bool")
+        return self.number().copy()
+
+    def sum(self, axis: Any = None, **options: Any) -> Any:
+        """Sum left to right; of true and false, how many are true."""
+        return np.sum(self, axis=axis, **options)
+
+    def max(self, axis: Any = None, **options: Any) -> Any:
+        """Largest."""
+        return np.max(self, axis=axis, **options)
+
+    def min(self, axis: Any = None, **options: Any) -> Any:
+        """Smallest."""
+        return np.min(self, axis=axis, **options)
+
+    def any(self, axis: Any = None, **options: Any) -> Any:
+        """Whether one is true."""
+        return np.any(self, axis=axis, **options)
+
+    def all(self, axis: Any = None, **options: Any) -> Any:
+        """Whether all are true."""
+        return np.all(self, axis=axis, **options)
+
+    def clip(self, low: Any, high: Any) -> Any:
+        """Between two limits."""
+        return np.minimum(np.maximum(self, low), high)
+
+    # --- what cannot be ---
+    def __bool__(self) -> bool:  # noqa: PLE0304  (never returns)
+        trouble("an `if`, `and`, `or`, `not` or `while` depends on a traced value", _IF)
+
+    def __float__(self) -> float:
+        trouble("a traced value was turned into a Python number or written into a plain array",
+                "use functions of fddbench.blocks.functions, and np.stack or np.concatenate")  # fmt: skip
+
+    def __int__(self) -> int:
+        trouble("a traced value was turned into a Python integer", "use np.floor or np.rint and stay with floats")
+
+    def __index__(self) -> int:  # noqa: PLE0305  (never returns)
+        trouble("a traced value is used as an index", "use blocks.functions.interpolate or np.where over the rows")
+
+    def __array__(self, *_: Any, **__: Any) -> Any:
+        trouble(
+            "a traced value is written into a plain array, used as an index of one, or given to a function that wants "
+            "its numbers",
+            "build arrays with np.stack or np.concatenate, look up with blocks.functions.interpolate, choose with np.where",
+        )
+
+
+def _static(key: Any) -> Any:
+    """The index itself, unless it depends on data."""
+    for part in key if isinstance(key, tuple) else (key,):
+        if isinstance(part, Traced):
+            cure = "use np.where(condition, a, b)" if part.boolean else "use blocks.functions.interpolate or np.where"
+            trouble("an index depends on a traced value, so its shape or place depends on data", cure)
+    return key

@@ -1,0 +1,27 @@
+"""Golden: the cost of a small observer, counted by hand."""
+
+from typing import Any
+
+import numpy as np
+
+from fddbench.blocks import functions
+from fddbench.blocks.accounting import cost
+from fddbench.blocks.linear import column, product
+from fddbench.blocks.program import trace
+
+
+def _observer(state: Any, y: Any) -> dict[str, Any]:
+    r = y - product(column([[1.0, 0.0]]), state)
+    return {"state": product(column([[0.9, 0.1], [0.0, 0.8]]), state) + column([0.5, 0.25]) * r, "ratio": np.abs(r)}
+
+
+def test_an_observer() -> None:
+    found = cost(trace(_observer, state=2, y=1))
+    assert dict(found.operations) == {"mul": 5, "add": 3, "sub": 1, "abs": 1}
+    assert (found.flops, found.multiply_adds, found.state_bytes, found.table_bytes) == (10, 3, 16, 40)
+
+
+def test_a_sine_is_one_operation_and_many_flops() -> None:
+    found = cost(trace(lambda state: {"state": functions.sin(state)}, state=1))
+    assert dict(found.operations) == {"sin": 1}
+    assert 25 < found.flops < 60

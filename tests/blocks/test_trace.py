@@ -1,0 +1,168 @@
+"""Golden: what tracing keeps, drops and refuses, and where the refusal points."""
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from fddbench.blocks import functions
+from fddbench.blocks.interpreter import Interpreter
+from fddbench.blocks.linear import affine, column, largest, product, total
+from fddbench.blocks.program import expand, trace
+from fddbench.blocks.trouble import TraceError
+
+
+def _if(x: Any) -> Any:
+    if x[0] > 0.0:
+        return {"y": x}
+    return {"y": -x}
+
+
+def _written_into_an_array(x: Any) -> Any:
+    y = np.zeros((2, 1))
+    y[0] = x[0]
+    return {"y": y}
+
+
+@pytest.mark.parametrize(
+    ("step", "cure"),
+    [
+        (_if, "use np.where"),
+        (lambda x: {"y": x if (x[0] > 0.0) and (x[1] > 0.0) else -x}, "use np.where"),
+        (lambda x: {"y": x[np.argmax(x)]}, "compare the rows with np.where"),
+        (lambda x: {"y": x[x > 0.0]}, "use np.where"),
+        (lambda x: {"y": np.arange(5.0)[x[0]]}, "interpolate"),
+        (lambda x: {"y": np.where(x > 0.0)}, "use np.where(condition, a, b)"),
+        (lambda x: {"y": np.sin(x)}, "use sin of fddbench.blocks.functions"),
+        (lambda x: {"y": np.arctan2(x, x)}, "use atan2 of fddbench.blocks.functions"),
+        (lambda x: {"y": x**3}, "multiply"),
+        (lambda x: {"y": x % 2.0}, "np.floor"),
+        (lambda x: {"y": np.linalg.norm(x)}, "np.sqrt"),
+        (lambda x: {"y": np.interp(x[0], [0, 1], [0, 1])}, "interpolate"),
+        (lambda x: {"y": float(x[0]) + x}, "fddbench.blocks.functions"),
+        (_written_into_an_array, "np.stack or np.concatenate"),
+        (lambda x: {"y": x & x}, "compare first"),
+        (lambda x: {"y": x + "a"}, "pass numbers"),
+        (lambda x: {"y": np.fft.fft(x)}, "np.where"),
+        (lambda x: {"y": x[0] @ x[1]}, "blocks.linear.product"),
+        (lambda x: {"y": np.zeros((2, 7))}, "its last axis must be the case axis"),
+        (lambda x: {"y": x.astype(int)}, "np.floor"),
+    ],
+)
+def test_what_cannot_be_traced_is_refused_with_the_line_and_the_cure(step: Callable[..., Any], cure: str) -> None:
+    with pytest.raises(TraceError, match=re.escape(cure)) as caught:
+        trace(step, x=2)
+    first = step.__code__.co_firstlineno
+    file, line = caught.value.where.rsplit(":", 1)
+    lines = range(first, first + 4)
+    if "case axis" not in cure:  # said of the result, so of the line that traces
+        assert (file, int(line) in lines) == (__file__, True)
+
+
+def test_an_error_survives_a_worker_process() -> None:
+    import pickle
+
+    with pytest.raises(TraceError, match="np.where") as caught:
+        trace(_if, x=2)
+    assert str(pickle.loads(pickle.dumps(caught.value))) == str(caught.value)
+
+
+def test_equal_operations_are_one_and_unused_ones_are_dropped() -> None:
+    def step(x: Any) -> Any:
+        unused = functions.sin(x[0])
+        assert unused.shape == (1,)
+        return {"y": (x[0] * x[1] + x[1] * x[0])[np.newaxis]}
+
+    counts = trace(step, x=2).counts
+    assert (counts["mul"], counts["add"], counts["sin"]) == (1, 1, 0)
+
+
+def test_zeros_of_a_matrix_are_free() -> None:
+    matrix = column([[0.0, 2.0], [0.0, 0.0]])
+    program = trace(lambda x: {"y": product(matrix, x)}, x=2)
+    assert {op: n for op, n in program.counts.items() if op not in {"input", "literal"}} == {"mul": 1}
+
+
+def test_constants_are_computed_once_and_for_all() -> None:
+    program = trace(lambda x: {"y": x * (np.float64(3.0) / 7.0 + functions.sin(np.array([0.5])))}, x=1)
+    assert [node.op for node in program.nodes if node.arguments] == ["mul"]
+
+
+def test_division_by_a_power_of_two_is_a_product() -> None:
+    assert trace(lambda x: {"y": x / 8.0}, x=1).counts["mul"] == 1
+    assert trace(lambda x: {"y": x / 10.0}, x=1).counts["div"] == 1
+
+
+def test_sine_and_cosine_share_their_reduction_when_written_out() -> None:
+    both = trace(lambda x: {"y": np.concatenate([functions.sin(x), functions.cos(x)])}, x=1)
+    assert (both.counts["sin"], both.counts["cos"]) == (1, 1)
+    written_out = expand(both).counts
+    assert (written_out["rint"], written_out["sin"]) == (1, 0)
+
+
+def test_outputs_that_are_not_kept_cost_nothing() -> None:
+    program = trace(lambda x: {"y": x + 1.0, "z": functions.exp(x)}, x=1)
+    assert program.keep("y").counts["exp"] == 0
+
+
+def test_identity() -> None:
+    first, again = (trace(lambda x: {"y": x + 1.0}, x=1) for _ in range(2))
+    other = trace(lambda x: {"y": x + 2.0}, x=1)
+    assert first.hash == again.hash != other.hash
+
+
+def _numpy_manners(x: Any, u: Any) -> dict[str, Any]:
+    """Everything that steps do with arrays, where the order of sums does not matter."""
+    y = np.zeros_like(x)
+    y[0] = x[1]
+    y[1:3] += x[1:3] * 2.0
+    flags = np.stack([x[0] > 0.0, x[1] >= x[2], x[2] != 0.5])
+    rows = {
+        "set": y,
+        "where": np.where(flags, 1, 0),
+        "count": np.sum(flags, axis=0)[np.newaxis],
+        "any": np.any(flags, axis=0)[np.newaxis] | flags.all(axis=0)[np.newaxis],
+        "or": (flags[0] + flags[1])[np.newaxis],
+        "minus": 1.0 - flags,
+        "index": x[[2, 0]],
+        "new": x[0][np.newaxis],
+        "step": x[::-1][:, np.newaxis].reshape(3, -1),
+        "full": np.full_like(x[:1], 3.0) + np.ones_like(x[:1]),
+        "spread": np.broadcast_to(u, (2, u.shape[-1])),
+        "clip": np.clip(x, -0.5, 0.5),
+        "sign": np.sign(x) + np.trunc(x) + np.ceil(x),
+        "power": x**2 + (x * x) ** 0.5 + 2.0**-1 * x,
+        "median": np.median(x, axis=0)[np.newaxis] + np.sort(x, axis=0)[:1],
+        "extremes": np.stack([np.max(x, axis=0), x.min(axis=0), largest(x), np.maximum.reduce(x, axis=0)]),
+        "finite": np.isfinite(x) & ~np.isnan(x),
+        "diff": np.diff(x, axis=0),
+        "sums": total(x)[np.newaxis] + np.array([1.0, 2.0])[:, np.newaxis],
+        "affine": product(affine(np.arange(18.0).reshape(3, 2, 3, 1), x[:2]), x),
+        "concatenated": np.concatenate([x, np.vstack([u, u]), np.ones((1, x.shape[-1]))]),
+        "xor": flags ^ (x > 0.1),
+        "degrees": np.deg2rad(x) + np.rad2deg(x),
+    }
+    assert len(x) == 3
+    return rows
+
+
+def test_traced_values_have_numpy_s_manners(same: Any) -> None:
+    x, u = np.random.default_rng(2).normal(size=(3, 9)), np.linspace(-1.0, 1.0, 9)
+    eager, traced = _numpy_manners(x, u), Interpreter(trace(_numpy_manners, x=3, u=0)).run(x=x, u=u)
+    wrong = [name for name in eager if not same(np.asarray(eager[name], dtype=float) + 0.0, traced[name] + 0.0)]
+    assert wrong == []
+
+
+def test_matrix_products_are_summed_left_to_right(same: Any) -> None:
+    matrix, x = np.random.default_rng(2).normal(size=(4, 3)), np.random.default_rng(3).normal(size=(3, 5))
+    found = Interpreter(trace(lambda x: {"y": matrix @ x}, x=3)).run(x=x)["y"]
+    assert same(found, product(column(matrix), x))
+
+
+def test_inputs_that_are_fixed_are_computed_once(same: Any) -> None:
+    program = trace(lambda c, x: {"y": functions.exp(c) * x}, c=1, x=1)
+    fixed, c, x = Interpreter(program, fixed=("c",)), np.array([[0.5, 2.0]]), np.array([[3.0, 4.0]])
+    fixed.fix(c=c)
+    assert same(fixed.run(x=x)["y"], Interpreter(program).run(c=c, x=x)["y"])
