@@ -1,0 +1,49 @@
+"""One way to call cvxpy: a solver by name, and no answer that the solver itself doubts."""
+
+import warnings
+from typing import Any
+
+from fddbench.errors import DesignError, did_you_mean
+
+__all__ = ["SOLVERS", "solve"]
+
+SOLVERS: dict[str, dict[str, Any]] = {
+    "CLARABEL": {},
+    "SCS": {"eps": 1e-8, "max_iters": 200_000},
+    "MOSEK": {},
+}
+"""Solvers for linear matrix inequalities with the options that make their answers worth certifying."""
+
+
+def solve(problem: Any, solver: str, what: str, *, infeasible: str) -> float:
+    """Optimal value of a cvxpy problem; its variables hold the solution.
+
+    Parameters
+    ----------
+    problem : cvxpy.Problem
+    solver : {"CLARABEL", "SCS", "MOSEK"}
+    what : str
+        What is being solved, for messages.
+    infeasible : str
+        What it means, and what to do, when there is no solution.
+    """
+    import cvxpy
+
+    if solver not in SOLVERS:
+        raise DesignError(f"no solver is called {solver!r}. {did_you_mean(solver, SOLVERS)}\nKnown: {', '.join(SOLVERS)}.")
+    if solver not in cvxpy.installed_solvers():
+        raise DesignError(f"solver {solver} is not installed (MOSEK needs `pip install mosek` and a licence); use CLARABEL.")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            problem.solve(solver=solver, **SOLVERS[solver])
+        except cvxpy.SolverError as error:
+            raise DesignError(f"{what}: {solver} failed ({error}). Scale the plant's signals with weights, or try another solver.") from error
+    if problem.status in ("infeasible", "infeasible_inaccurate"):
+        raise DesignError(f"{what}: {infeasible}")
+    if problem.status != "optimal":
+        raise DesignError(
+            f"{what}: {solver} stopped with status {problem.status!r}, and what a solver doubts proves nothing. "
+            "Scale states and signals to about one (weights W_f, W_d, W_u), or try another solver."
+        )
+    return float(problem.value)
