@@ -7,7 +7,6 @@ import numpy as np
 
 from fddbench.design.multipliers import Multiplier, MultiplierVariables
 from fddbench.design.problem import Augmented, Filter
-from fddbench.design.uncertainty import Block
 from fddbench.interfaces import Floats
 
 __all__ = ["EPSILON", "FilterVariables", "Solution", "inequality", "positive", "upper_part"]
@@ -107,7 +106,3 @@ def upper_part(
     rows.append([np.zeros((n_z, 2 * n + n_v + n_f + n_w)), -0.5 * S_z])
     return cp.bmat(rows)
 
-
-def multiplier_variables(blocks: tuple[Block, ...]) -> MultiplierVariables:
-    """S and G for the blocks of Δ."""
-    return MultiplierVariables(blocks)

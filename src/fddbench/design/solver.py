@@ -5,7 +5,7 @@ from typing import Any
 
 from fddbench.errors import DesignError, did_you_mean
 
-__all__ = ["SOLVERS", "solve"]
+__all__ = ["SOLVERS", "attempt", "solve"]
 
 SOLVERS: dict[str, dict[str, Any]] = {
     "CLARABEL": {},
@@ -13,6 +13,23 @@ SOLVERS: dict[str, dict[str, Any]] = {
     "MOSEK": {},
 }
 """Solvers for linear matrix inequalities with the options that make their answers worth certifying."""
+
+
+def attempt(problem: Any, solver: str, what: str) -> str:
+    """Status of a cvxpy problem after solving: "optimal", "optimal_inaccurate", "infeasible" ...; "failed" for a breakdown."""
+    import cvxpy
+
+    if solver not in SOLVERS:
+        raise DesignError(f"no solver is called {solver!r}. {did_you_mean(solver, SOLVERS)}\nKnown: {', '.join(SOLVERS)}.")
+    if solver not in cvxpy.installed_solvers():
+        raise DesignError(f"{what}: solver {solver} is not installed (MOSEK: `pip install mosek` and a licence); use CLARABEL.")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            problem.solve(solver=solver, **SOLVERS[solver])
+        except cvxpy.SolverError:
+            return "failed"
+    return str(problem.status)
 
 
 def solve(problem: Any, solver: str, what: str, *, infeasible: str) -> float:
@@ -27,23 +44,12 @@ def solve(problem: Any, solver: str, what: str, *, infeasible: str) -> float:
     infeasible : str
         What it means, and what to do, when there is no solution.
     """
-    import cvxpy
-
-    if solver not in SOLVERS:
-        raise DesignError(f"no solver is called {solver!r}. {did_you_mean(solver, SOLVERS)}\nKnown: {', '.join(SOLVERS)}.")
-    if solver not in cvxpy.installed_solvers():
-        raise DesignError(f"solver {solver} is not installed (MOSEK needs `pip install mosek` and a licence); use CLARABEL.")
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        try:
-            problem.solve(solver=solver, **SOLVERS[solver])
-        except cvxpy.SolverError as error:
-            raise DesignError(f"{what}: {solver} failed ({error}). Scale the plant's signals with weights, or try another solver.") from error
-    if problem.status in ("infeasible", "infeasible_inaccurate"):
+    status = attempt(problem, solver, what)
+    if status in ("infeasible", "infeasible_inaccurate"):
         raise DesignError(f"{what}: {infeasible}")
-    if problem.status != "optimal":
+    if status != "optimal":
         raise DesignError(
-            f"{what}: {solver} stopped with status {problem.status!r}, and what a solver doubts proves nothing. "
+            f"{what}: {solver} stopped with status {status!r}, and what a solver doubts proves nothing. "
             "Scale states and signals to about one (weights W_f, W_d, W_u), or try another solver."
         )
     return float(problem.value)

@@ -1,0 +1,137 @@
+"""Lower bounds of γ that no filter can beat: a few explicit plants, one frequency, and a dual certificate."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fddbench.design.problem import Augmented
+from fddbench.design.search import Fraction, climb
+from fddbench.design.solver import solve
+from fddbench.design.systems import StateSpace
+from fddbench.design.uncertainty import Block, sample_delta
+from fddbench.interfaces import Floats
+
+__all__ = ["lower_bound", "lower_bound_diagonal"]
+
+ROUNDS = 12
+"""Plants are added until the worst one is among them; twelve settle the printed start of the jet engine."""
+
+
+@dataclass(frozen=True)
+class _Response:
+    """What the filter sees and what it should say at a frequency where all responses are real.
+
+    Attributes
+    ----------
+    measured : Fraction
+        From v to (y, u), as a function of Δ.
+    faults : (n_f, n_v) array
+        From v to the weighted faults.
+    """
+
+    measured: Fraction
+    faults: Floats
+
+    @classmethod
+    def of(cls, plant: Augmented, frequency: float) -> "_Response":
+        """Response of the plant with its weights, at 0 or ∞ [rad/s]."""
+        n_m, n_f, n_v, own = len(plant.Cm), len(plant.Wc), plant.B.shape[1], slice(plant.n_ref, None)
+        inputs, outputs = np.hstack([plant.B, plant.F]), np.vstack([plant.Cm, plant.Wc, plant.E])
+        direct = np.block([[plant.Dm, plant.Fm], [plant.Wd, np.zeros((n_f, plant.F.shape[1]))], [plant.Ev, plant.H]])
+        whole = StateSpace(plant.A[own, own], inputs[own], outputs[:, own], direct).at(frequency).real
+        m, f, z = whole[:n_m], whole[n_m : n_m + n_f], whole[n_m + n_f :]
+        return cls(Fraction(m[:, :n_v], m[:, n_v:], z[:, :n_v], z[:, n_v:]), f[:, :n_v])
+
+    def error(self, gain: Floats, reference: Floats) -> Fraction:
+        """``K M(Δ) - T_ref W`` for a filter with the response K at this frequency."""
+        M = self.measured
+        return Fraction(gain @ M.rv - reference @ self.faults, gain @ M.rw, M.zv, M.zw)
+
+
+def lower_bound(plants: tuple[Augmented, ...], reference: StateSpace, blocks: tuple[Block, ...], *, solver: str) -> float:
+    """Largest γ that is proved unreachable for a fixed reference, over the frequencies 0 and ∞.
+
+    At one frequency any filter is a constant matrix K, so ``γ ≥ min_K max_i ‖K M_i - R‖`` over any finite set of plants. The
+    minimum is bounded from below by a point of its dual, taken from the solver's answer and made exactly feasible
+    afterwards: the bound does not trust the solver.
+
+    Parameters
+    ----------
+    plants : tuple of Augmented
+        One with its Δ channel, or the vertices of a polytope.
+    reference : StateSpace
+        T_ref.
+    blocks : tuple of Block
+        Structure of Δ; () for a polytope or a certain plant.
+    solver : str
+        Solver by name.
+    """
+    bounds = [0.0]
+    for frequency in (np.inf, 0.0):
+        responses = [_Response.of(plant, frequency) for plant in plants]
+        bounds.append(_cutting_planes(responses, blocks, solver, reference.at(frequency).real))
+    return max(bounds)
+
+
+def lower_bound_diagonal(plants: tuple[Augmented, ...], blocks: tuple[Block, ...], *, solver: str) -> float:
+    """Largest γ that is proved unreachable for every diagonal reference with ‖T_ref‖₋ ≥ 1, of any order and with any poles.
+
+    Such a reference has ``|d_i| ≥ 1`` at infinity, and the sign of a residual is free, so that ``d_i ≥ 1``.
+    """
+    return _cutting_planes([_Response.of(plant, np.inf) for plant in plants], blocks, solver, None)
+
+
+def _cutting_planes(
+    responses: list[_Response], blocks: tuple[Block, ...], solver: str, reference: Floats | None
+) -> float:
+    """Best bound while the worst plant for the best gain is added to the plants; a reference of None is diagonal and free."""
+    nothing = np.zeros((sum(b.shape[0] for b in blocks), sum(b.shape[1] for b in blocks)))
+    if not blocks:
+        return _best_gain([r.measured.rv for r in responses], [r.faults for r in responses], solver, reference)[-1]
+    (response,) = responses
+    measured, best = [response.measured.at(delta) for delta in (nothing, *sample_delta(blocks, 8, seed=0)[1:])], 0.0
+    for _ in range(ROUNDS):
+        gain, wanted, level, bound = _best_gain(measured, [response.faults] * len(measured), solver, reference)
+        best = max(best, bound)
+        error = response.error(gain, wanted)
+        climbs = [climb(error, blocks, start) for start in sample_delta(blocks, 6, seed=1)]
+        worst, value = max(climbs, key=lambda found: found[1])
+        if value <= level * (1.0 + 1e-5):
+            break
+        measured.append(response.measured.at(worst))
+    return best
+
+
+def _best_gain(
+    measured: list[Floats], faults: list[Floats], solver: str, reference: Floats | None
+) -> tuple[Floats, Floats, float, float]:
+    """K and T_ref that minimise the largest ``‖K M_i - T_ref W_i‖``, that value, and its proved lower bound."""
+    import cvxpy as cp
+
+    n_f = len(faults[0])
+    K, d, level = cp.Variable((n_f, len(measured[0]))), cp.Variable(n_f), cp.Variable()
+    wanted = cp.diag(d) if reference is None else reference
+    errors = [K @ M - wanted @ W for M, W in zip(measured, faults, strict=True)]
+    cones = [cp.bmat([[level * np.eye(n_f), e], [e.T, level * np.eye(e.shape[1])]]) >> 0 for e in errors]
+    solve(cp.Problem(cp.Minimize(level), [*cones, d >= 1.0]), solver, "lower bound of gamma", infeasible="no bound exists.")
+    duals = [np.asarray(cone.dual_value)[:n_f, n_f:] for cone in cones]
+    bound = _dual_bound(duals, measured, faults, reference)
+    return np.asarray(K.value), np.asarray(getattr(wanted, "value", wanted)), float(level.value), bound
+
+
+def _dual_bound(duals: list[Floats], measured: list[Floats], faults: list[Floats], reference: Floats | None) -> float:
+    """Value of the dual at the nearest feasible point, 0 when there is none.
+
+    The dual of ``min max ‖K M_i - T W_i‖`` maximises ``Σ⟨V_i, T W_i⟩`` over ``Σ V_i M_iᵀ = 0, Σ‖V_i‖⁎ ≤ 1``; over ``T = diag(d), d ≥ 1``
+    the value is that of d = 1 when every ``c_j = Σ⟨V_i, e_j e_jᵀ W_i⟩`` is nonnegative.
+    """
+    V, stacked, W = np.hstack(duals), np.hstack(measured), np.hstack(faults)
+    V = V - V @ np.linalg.pinv(stacked) @ stacked
+    size = sum(float(np.linalg.norm(piece, "nuc")) for piece in np.split(V, len(measured), axis=1))
+    if not size:
+        return 0.0
+    correlation = V @ W.T / size
+    if reference is not None:
+        return abs(float(np.sum(correlation * reference)))
+    parts = np.diag(correlation)
+    return abs(float(parts.sum())) if np.all(parts >= 0.0) or np.all(parts <= 0.0) else 0.0
