@@ -6,9 +6,10 @@ import numpy as np
 
 from fddbench.design.problem import Augmented
 from fddbench.design.search import Fraction, climb
-from fddbench.design.solver import solve
+from fddbench.design.solver import attempt
 from fddbench.design.systems import StateSpace
 from fddbench.design.uncertainty import Block, sample_delta
+from fddbench.errors import DesignError
 from fddbench.interfaces import Floats
 
 __all__ = ["lower_bound", "lower_bound_diagonal"]
@@ -113,7 +114,9 @@ def _best_gain(
     wanted = cp.diag(d) if reference is None else reference
     errors = [K @ M - wanted @ W for M, W in zip(measured, faults, strict=True)]
     cones = [cp.bmat([[level * np.eye(n_f), e], [e.T, level * np.eye(e.shape[1])]]) >> 0 for e in errors]
-    solve(cp.Problem(cp.Minimize(level), [*cones, d >= 1.0]), solver, "lower bound of gamma", infeasible="no bound exists.")
+    status = attempt(cp.Problem(cp.Minimize(level), cones + ([d >= 1.0] if reference is None else [])), solver, "lower bound")
+    if status not in ("optimal", "optimal_inaccurate"):
+        raise DesignError(f"lower bound of gamma: {solver} stopped with status {status!r}; try another solver.")
     duals = [np.asarray(cone.dual_value)[:n_f, n_f:] for cone in cones]
     bound = _dual_bound(duals, measured, faults, reference)
     return np.asarray(K.value), np.asarray(getattr(wanted, "value", wanted)), float(level.value), bound
