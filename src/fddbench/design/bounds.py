@@ -3,10 +3,11 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import null_space
 
 from fddbench.design.problem import Augmented
 from fddbench.design.search import Fraction, climb
-from fddbench.design.solver import attempt
+from fddbench.design.solver import attempt, modelling
 from fddbench.design.systems import StateSpace
 from fddbench.design.uncertainty import Block, sample_delta
 from fddbench.errors import DesignError
@@ -49,12 +50,14 @@ class _Response:
         return Fraction(gain @ M.rv - reference @ self.faults, gain @ M.rw, M.zv, M.zw)
 
 
-def lower_bound(plants: tuple[Augmented, ...], reference: StateSpace, blocks: tuple[Block, ...], *, solver: str) -> float:
+def lower_bound(
+    plants: tuple[Augmented, ...], reference: StateSpace, blocks: tuple[Block, ...], *, solver: str
+) -> float:
     """Largest γ that is proved unreachable for a fixed reference, over the frequencies 0 and ∞.
 
-    At one frequency any filter is a constant matrix K, so ``γ ≥ min_K max_i ‖K M_i - R‖`` over any finite set of plants. The
-    minimum is bounded from below by a point of its dual, taken from the solver's answer and made exactly feasible
-    afterwards: the bound does not trust the solver.
+    At one frequency any filter is a constant matrix K, so γ is at least ``min_K max_i ‖K M_i - R‖`` over any finite set
+    of plants. The minimum is bounded from below by a point of its dual, taken from the solver's answer and made
+    feasible by projection and scaling: the bound does not trust the solver.
 
     Parameters
     ----------
@@ -75,7 +78,7 @@ def lower_bound(plants: tuple[Augmented, ...], reference: StateSpace, blocks: tu
 
 
 def lower_bound_diagonal(plants: tuple[Augmented, ...], blocks: tuple[Block, ...], *, solver: str) -> float:
-    """Largest γ that is proved unreachable for every diagonal reference with ‖T_ref‖₋ ≥ 1, of any order and with any poles.
+    """Largest γ proved unreachable for every diagonal reference with ‖T_ref‖₋ ≥ 1, of any order and with any poles.
 
     Such a reference has ``|d_i| ≥ 1`` at infinity, and the sign of a residual is free, so that ``d_i ≥ 1``.
     """
@@ -85,7 +88,7 @@ def lower_bound_diagonal(plants: tuple[Augmented, ...], blocks: tuple[Block, ...
 def _cutting_planes(
     responses: list[_Response], blocks: tuple[Block, ...], solver: str, reference: Floats | None
 ) -> float:
-    """Best bound while the worst plant for the best gain is added to the plants; a reference of None is diagonal and free."""
+    """Best bound while the worst plant for the best gain joins the plants; a reference of None is diagonal and free."""
     nothing = np.zeros((sum(b.shape[0] for b in blocks), sum(b.shape[1] for b in blocks)))
     if not blocks:
         return _best_gain([r.measured.rv for r in responses], [r.faults for r in responses], solver, reference)[-1]
@@ -107,14 +110,14 @@ def _best_gain(
     measured: list[Floats], faults: list[Floats], solver: str, reference: Floats | None
 ) -> tuple[Floats, Floats, float, float]:
     """K and T_ref that minimise the largest ``‖K M_i - T_ref W_i‖``, that value, and its proved lower bound."""
-    import cvxpy as cp
-
+    cp = modelling()
     n_f = len(faults[0])
     K, d, level = cp.Variable((n_f, len(measured[0]))), cp.Variable(n_f), cp.Variable()
     wanted = cp.diag(d) if reference is None else reference
     errors = [K @ M - wanted @ W for M, W in zip(measured, faults, strict=True)]
     cones = [cp.bmat([[level * np.eye(n_f), e], [e.T, level * np.eye(e.shape[1])]]) >> 0 for e in errors]
-    status = attempt(cp.Problem(cp.Minimize(level), cones + ([d >= 1.0] if reference is None else [])), solver, "lower bound")
+    free = [d >= 1.0] if reference is None else []
+    status = attempt(cp.Problem(cp.Minimize(level), cones + free), solver, "lower bound")
     if status not in ("optimal", "optimal_inaccurate"):
         raise DesignError(f"lower bound of gamma: {solver} stopped with status {status!r}; try another solver.")
     duals = [np.asarray(cone.dual_value)[:n_f, n_f:] for cone in cones]
@@ -125,13 +128,14 @@ def _best_gain(
 def _dual_bound(duals: list[Floats], measured: list[Floats], faults: list[Floats], reference: Floats | None) -> float:
     """Value of the dual at the nearest feasible point, 0 when there is none.
 
-    The dual of ``min max ‖K M_i - T W_i‖`` maximises ``Σ⟨V_i, T W_i⟩`` over ``Σ V_i M_iᵀ = 0, Σ‖V_i‖⁎ ≤ 1``; over ``T = diag(d), d ≥ 1``
-    the value is that of d = 1 when every ``c_j = Σ⟨V_i, e_j e_jᵀ W_i⟩`` is nonnegative.
+    The dual of ``min max ‖K M_i - T W_i‖`` maximises ``Σ⟨V_i, T W_i⟩`` over ``Σ V_i M_iᵀ = 0, Σ‖V_i‖⁎ ≤ 1``; over
+    ``T = diag(d), d ≥ 1`` the value is that of d = 1 when every ``c_j = Σ⟨V_i, e_j e_jᵀ W_i⟩`` is nonnegative.
     """
     V, stacked, W = np.hstack(duals), np.hstack(measured), np.hstack(faults)
-    V = V - V @ np.linalg.pinv(stacked) @ stacked
+    blind = null_space(stacked, rcond=1e-10)
+    whole, V = np.linalg.norm(V), V @ blind @ blind.T
     size = sum(float(np.linalg.norm(piece, "nuc")) for piece in np.split(V, len(measured), axis=1))
-    if not size:
+    if size <= 1e-6 * whole:  # nothing but rounding is left: some gain follows the reference exactly
         return 0.0
     correlation = V @ W.T / size
     if reference is not None:

@@ -28,7 +28,7 @@ class Certificate:
     smallest_Pc : float
         Smallest eigenvalue of Pc, must be positive.
     largest_robust : float
-        Largest eigenvalue of (25), of (43) for a structured Δ, of (46) over the vertices of a polytope; must be negative.
+        Largest eigenvalue of (25), of (43) for a structured Δ, of (46) over all vertices; must be negative.
     largest_sampled : float
         Largest eigenvalue of (15) over the sampled members of the set; must be negative.
     rounding : float
@@ -52,13 +52,13 @@ class Certificate:
         return self.smallest_Pc > 0.0 and max(self.largest_robust, self.largest_sampled) < -self.rounding
 
     def require(self) -> "Certificate":
-        """The certificate itself; a γ without proof is an error."""
+        """Return the certificate itself; a γ without proof is an error."""
         if self.holds:
             return self
         raise DesignError(
-            f"gamma = {self.gamma:.6g} has no certificate: need Pc ≻ 0 (smallest eigenvalue {self.smallest_Pc:.3g}), (25) ≺ 0 "
-            f"({self.largest_robust:.3g}) and (15) ≺ 0 at {self.n_sampled} samples ({self.largest_sampled:.3g}), all beyond "
-            f"rounding {self.rounding:.1g}.\nAllow a larger gamma (relax=0.02) or scale states and signals to about one."
+            f"gamma = {self.gamma:.6g} has no certificate: need Pc ≻ 0 (smallest eigenvalue {self.smallest_Pc:.3g}), "
+            f"(25) ≺ 0 ({self.largest_robust:.3g}) and (15) ≺ 0 at {self.n_sampled} samples ({self.largest_sampled:.3g}), "
+            f"beyond rounding {self.rounding:.1g}.\nAllow a larger gamma or scale states and signals to about one."
         )
 
 

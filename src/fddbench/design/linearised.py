@@ -8,7 +8,7 @@ import numpy as np
 from fddbench.design.lmi import EPSILON, FilterVariables, Solution, upper_part
 from fddbench.design.multipliers import MultiplierVariables
 from fddbench.design.problem import Augmented
-from fddbench.design.solver import solve
+from fddbench.design.solver import modelling, solve
 from fddbench.design.systems import StateSpace
 from fddbench.interfaces import Floats
 
@@ -33,7 +33,7 @@ class Freedom:
     @classmethod
     def diagonal(cls, reference: StateSpace) -> "Freedom":
         """Diagonal entries of A, C and D where they exist; B is fixed (Remark 8)."""
-        A, C, D = (np.eye(*M.shape, dtype=bool) for M in (reference.A, reference.C, reference.D))
+        A, C, D = (np.eye(*M.shape) != 0.0 for M in (reference.A, reference.C, reference.D))
         return cls(A=A, B=np.zeros(reference.B.shape, dtype=bool), C=C, D=D)
 
 
@@ -46,14 +46,13 @@ class ReferenceVariables:
         )
 
     def value(self) -> StateSpace:
-        """The solution as a system."""
+        """Return the solution as a system."""
         return StateSpace(*(np.asarray(getattr(M, "value", M), dtype=float) for M in (self.A, self.B, self.C, self.D)))
 
 
 def _masked(matrix: Floats, mask: Any) -> Any:
     """`matrix` with a variable in place of every entry where `mask` holds."""
-    import cvxpy as cp
-
+    cp = modelling()
     if not mask.any():
         return matrix
     place = np.eye(matrix.size)[:, mask.ravel(order="F")]
@@ -80,13 +79,12 @@ def inequality_about(
     about: tuple[Solution, StateSpace],
     scale: float,
 ) -> list[Any]:
-    """Constraint (66): (37) linearised about a solution and its reference, with ``scale Q`` and ``R / scale`` for Q and R.
+    """Constraint (66): (37) linearised about a solution and its reference, with ``scale Q, R / scale`` for Q, R.
 
     Q Rᵀ does not see the scale but the price ``(ΔQ - ΔR)(ΔQ - ΔR)ᵀ`` of a step does: a small one lets Z and Y move
     freely and holds A_ref and B_ref, a large one the other way round.
     """
-    import cvxpy as cp
-
+    cp = modelling()
     frozen = np.zeros_like(about[1].A), np.zeros_like(about[1].B)
     quadruple = augmented.with_reference(*frozen, reference.C, reference.D)
     half = upper_part(augmented, quadruple, variables, multiplier, gamma)
@@ -104,8 +102,7 @@ def inequality_about(
 
 def sensitivity_about(reference: ReferenceVariables, about: StateSpace, P: Floats) -> list[Any]:
     """Constraint (67), ``‖T_ref‖₋ ≥ 1`` linearised about a reference with its storage matrix P, (65)."""
-    import cvxpy as cp
-
+    cp = modelling()
     U, Uo = cp.hstack([reference.C, reference.D]).T, np.hstack([about.C, about.D]).T
     n_ref, n_f = about.order, len(about.D)
     half = U @ Uo.T - 0.5 * (Uo @ Uo.T) - 0.5 * np.diag([0.0] * n_ref + [1.0] * n_f)
@@ -113,7 +110,8 @@ def sensitivity_about(reference: ReferenceVariables, about: StateSpace, P: Float
         return [half + half.T >> 0]
     new = cp.Variable((n_ref, n_ref), symmetric=True)
     rest = np.zeros((n_f, n_ref))
-    scale = np.sqrt(max(np.linalg.norm(np.hstack([about.A, about.B])), 1e-3) / max(np.linalg.norm(P), 1e-3))
+    sizes = [max(float(np.linalg.norm(M)), 1e-3) for M in (np.hstack([about.A, about.B]), P)]
+    scale = float(np.sqrt(sizes[0] / sizes[1]))
     Q, R = scale * cp.vstack([new, rest]), cp.vstack([reference.A.T, reference.B.T]) / scale
     Qo, Ro = scale * np.vstack([P, rest]), np.vstack([about.A.T, about.B.T]) / scale
     Fo = Qo + Ro
@@ -123,9 +121,8 @@ def sensitivity_about(reference: ReferenceVariables, about: StateSpace, P: Float
 
 
 def storage(reference: StateSpace, solver: str) -> Floats:
-    """P_ref of Lemma 3, (n_ref, n_ref): makes the smallest eigenvalue of (39) as large as it gets (0 when ‖T_ref‖₋ = 1)."""
-    import cvxpy as cp
-
+    """P_ref of Lemma 3, (n_ref, n_ref): makes the smallest eigenvalue of (39) largest; it is 0 when ‖T_ref‖₋ = 1."""
+    cp = modelling()
     n, n_f = reference.order, len(reference.D)
     if not n:
         return np.zeros((0, 0))
@@ -134,5 +131,10 @@ def storage(reference: StateSpace, solver: str) -> Floats:
     half = cp.bmat([[P @ reference.A, P @ reference.B], [np.zeros((n_f, n + n_f))]])
     matrix = half + half.T + U.T @ U - np.diag([0.0] * n + [1.0] * n_f)
     goal = cp.Maximize(slack - 1e-6 * cp.norm(P, "fro"))
-    solve(cp.Problem(goal, [matrix >> slack * np.eye(n + n_f), slack <= 1.0]), solver, "storage of T_ref (39)", infeasible="no P_ref")
+    solve(
+        cp.Problem(goal, [matrix >> slack * np.eye(n + n_f), slack <= 1.0]),
+        solver,
+        "storage of T_ref (39)",
+        infeasible="no P_ref",
+    )
     return np.asarray(P.value, dtype=float)

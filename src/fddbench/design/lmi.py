@@ -7,6 +7,7 @@ import numpy as np
 
 from fddbench.design.multipliers import Multiplier, MultiplierVariables
 from fddbench.design.problem import Augmented, Filter
+from fddbench.design.solver import modelling
 from fddbench.interfaces import Floats
 
 __all__ = ["EPSILON", "FilterVariables", "Solution", "inequality", "positive", "upper_part"]
@@ -19,15 +20,14 @@ class FilterVariables:
     """Z, Y and the changed filter variables (36) as cvxpy variables; columns of B̂ and D̂ are (y, u)."""
 
     def __init__(self, augmented: Augmented) -> None:
-        import cvxpy as cp
-
+        cp = modelling()
         n, n_m, n_f = len(augmented.A), len(augmented.Cm), len(augmented.Wc)
         self.Z, self.Y = cp.Variable((n, n), symmetric=True), cp.Variable((n, n), symmetric=True)
         self.A, self.B = cp.Variable((n, n)), cp.Variable((n, n_m))
         self.C, self.D = cp.Variable((n_f, n)), cp.Variable((n_f, n_m))
 
     def value(self, n_y: int) -> "Solution":
-        """The solution as numbers."""
+        """Return the solution as numbers."""
         Z, Y, A, B, C, D = (np.asarray(v.value, dtype=float) for v in (self.Z, self.Y, self.A, self.B, self.C, self.D))
         return Solution(Z=Z, Y=Y, A=A, B=B, C=C, D=D, n_y=n_y)
 
@@ -47,7 +47,7 @@ class Solution:
     def filter(self) -> Filter:
         """Undo (36) with ``N = Z - Y, Mᵀ = Z⁻¹``, which satisfies ``N Mᵀ = I - Y Z⁻¹`` without a factorisation."""
         N = self.Z - self.Y
-        Ak, Bk = np.linalg.solve(N, self.A), np.linalg.solve(N, self.B)
+        Ak, Bk = (np.asarray(np.linalg.solve(N, M), dtype=float) for M in (self.A, self.B))
         y, u = slice(None, self.n_y), slice(self.n_y, None)
         return Filter(Ak=Ak, Bky=Bk[:, y], Bku=Bk[:, u], Ck=self.C, Dky=self.D[:, y], Dku=self.D[:, u])
 
@@ -80,8 +80,7 @@ def upper_part(
     `reference` is the quadruple of `Augmented.with_reference`; the rows are (ξ, ξ̂, v, r, w, z), the last
     two only where the plant is uncertain.
     """
-    import cvxpy as cp
-
+    cp = modelling()
     A, B, Cr, Dr = reference
     v, plant = variables, augmented
     n, n_v, n_f = len(plant.A), plant.B.shape[1], len(plant.Wc)
@@ -105,4 +104,3 @@ def upper_part(
     rows.append([np.zeros((n_w, 2 * n + n_v + n_f)), plant.H.T @ G - 0.5 * S_w, plant.H.T @ S_z])
     rows.append([np.zeros((n_z, 2 * n + n_v + n_f + n_w)), -0.5 * S_z])
     return cp.bmat(rows)
-

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from fddbench.design.solver import modelling
 from fddbench.design.uncertainty import Block, FullBlock
 from fddbench.interfaces import Floats
 
@@ -37,8 +38,7 @@ class MultiplierVariables:
     """S and G of (21) as cvxpy expressions."""
 
     def __init__(self, blocks: tuple[Block, ...]) -> None:
-        import cvxpy as cp
-
+        cp = modelling()
         n_w, n_z = (sum(block.shape[axis] for block in blocks) for axis in (0, 1))
         self.S_w: Any = np.zeros((n_w, n_w))
         self.S_z: Any = np.zeros((n_z, n_z))
@@ -59,6 +59,6 @@ class MultiplierVariables:
                 self.G = self.G + Z @ (K - K.T) @ W.T
 
     def value(self) -> Multiplier:
-        """The solution as numbers."""
+        """Return the solution as numbers."""
         S_w, S_z, G = (np.asarray(getattr(M, "value", M), dtype=float) for M in (self.S_w, self.S_z, self.G))
         return Multiplier(S_w=S_w, S_z=S_z, G=G)

@@ -31,7 +31,7 @@ class Filter:
     Dku: Floats
 
     def as_system(self) -> StateSpace:
-        """The filter from (y, u) to r."""
+        """Return the filter from (y, u) to r."""
         return StateSpace(self.Ak, np.hstack([self.Bky, self.Bku]), self.Ck, np.hstack([self.Dky, self.Dku]))
 
 
@@ -72,7 +72,7 @@ class Augmented:
         return np.eye(len(self.A))[:, : self.n_ref]
 
     def with_reference(self, A: Any, B: Any, C: Any, D: Any) -> tuple[Any, Any, Any, Any]:
-        """The matrices A, B of ξ and Cr, Dr of the wanted residual ``Cr ξ + Dr v``; arrays or cvxpy expressions."""
+        """Return A, B of ξ and Cr, Dr of the wanted residual ``Cr ξ + Dr v``; arrays or cvxpy expressions."""
         if not self.n_ref:
             return self.A, self.B, D @ self.Wc, D @ self.Wd
         E1 = self.E1
@@ -139,14 +139,14 @@ class ClosedLoop:
     H: Floats
 
     def at(self, delta: Floats) -> StateSpace:
-        """The closed loop (14) at one Δ, (n_w, n_z)."""
+        """Return the closed loop (14) at one Δ, (n_w, n_z)."""
         delta_h = np.linalg.solve(np.eye(len(delta)) - delta @ self.H, delta)
         x, r = self.Fr1 @ delta_h, self.Fr2 @ delta_h
         return StateSpace(self.A + x @ self.Er1, self.B + x @ self.Er2, self.C + r @ self.Er1, self.D + r @ self.Er2)
 
 
 def close(augmented: Augmented, reference: StateSpace, filter_: Filter) -> ClosedLoop:
-    """Closed loop of the augmented plant with a filter."""
+    """Return the closed loop of the augmented plant with a filter."""
     K = filter_.as_system()
     A, B, Cr, Dr = augmented.with_reference(reference.A, reference.B, reference.C, reference.D)
     n_k, n_z = len(K.A), len(augmented.H)

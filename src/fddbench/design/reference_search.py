@@ -10,9 +10,10 @@ from fddbench.design.linearised import Freedom, ReferenceVariables, inequality_a
 from fddbench.design.lmi import FilterVariables, Solution, inequality, positive, upper_part
 from fddbench.design.multipliers import MultiplierVariables
 from fddbench.design.norms import hminus_index
+from fddbench.design.proof import Task
 from fddbench.design.robust_hinf import Design, prepare, synthesize
-from fddbench.design.solver import attempt, solve
-from fddbench.design.synthesis import Task, optimal
+from fddbench.design.solver import attempt, modelling, solve
+from fddbench.design.synthesis import optimal
 from fddbench.design.systems import StateSpace, UncertainPlant, Weights
 from fddbench.design.uncertainty import NormBounded, Uncertainty
 from fddbench.errors import DesignError
@@ -40,7 +41,7 @@ class ReferenceSearch:
     iterations : tuple of Iteration
         The start and every step; γ never grows.
     lower_bound : float
-        No diagonal reference with ‖T_ref‖₋ ≥ 1, of any order, has a smaller γ [-]; 0 when the reference is not diagonal.
+        No diagonal reference with ‖T_ref‖₋ ≥ 1, of any order, has a smaller γ [-]; 0 for other references.
     """
 
     design: Design
@@ -62,9 +63,9 @@ def optimize_reference(
 ) -> ReferenceSearch:
     """Algorithm 1: improve reference and filter together until γ stands still, possibly at a local minimum.
 
-    Two scalings make it converge in a few steps where the run of Table 1 crawls: before every step the reference
-    is divided by its own smallest gain, row by row when it is diagonal, which can only lower γ; and Q and R of (59)
-    are brought to the same norm, so that neither the Lyapunov matrices nor the reference are held still.
+    Two scalings make it converge in a few steps where the run of Table 1 crawls: before every step the reference is
+    divided by its own smallest gain, row by row when it is diagonal, which can only lower γ; and Q and R of (59) are
+    brought to the same norm, so that neither the Lyapunov matrices nor the reference are held still.
 
     Parameters
     ----------
@@ -108,11 +109,11 @@ def optimize_fixed_poles(
     solver: str = "CLARABEL",
     relax: float | None = 0.02,
 ) -> Design:
-    """The best diagonal reference ``d_i + c_i / (s - a_i)`` for given poles, by one exact inequality.
+    """Find the best diagonal reference ``d_i + c_i / (s - a_i)`` for given poles, by one exact inequality.
 
-    With A_ref fixed and B_ref = I the inequality (37) is linear in C_ref and D_ref, and ``‖T_ref‖₋ ≥ 1`` means that the gains at
-    infinity, d_i, and at zero, ``d_i - c_i / a_i``, have size one at least. It is exact among references whose two gains
-    have the same sign, and γ equal to `lower_bound_diagonal` proves that no other reference is better.
+    With A_ref fixed and B_ref = I the inequality (37) is linear in C_ref and D_ref, and ``‖T_ref‖₋ ≥ 1`` means that the
+    gains at infinity, d_i, and at zero, ``d_i - c_i / a_i``, have size one at least. It is exact among references whose
+    two gains have the same sign, and γ equal to `lower_bound_diagonal` proves that no other reference is better.
 
     Parameters
     ----------
@@ -121,20 +122,21 @@ def optimize_fixed_poles(
     plant, uncertainty, weights, solver, relax
         As in `synthesize`.
     """
-    import cvxpy as cp
-
+    cp = modelling()
     a, n_f = np.asarray(poles, dtype=float), plant.inputs[0]
     if a.shape != (n_f,) or np.any(a >= 0.0):
         raise DesignError(f"need one negative pole for each of the {n_f} faults (columns of Bf), got {a}.")
     start = StateSpace.diagonal(a, np.ones(n_f), np.zeros(n_f), np.ones(n_f))
     task = prepare(plant, start, uncertainty or NormBounded(), weights, solver)
-    variables, multiplier = FilterVariables(task.plants[0]), MultiplierVariables(task.blocks)
+    variables, multiplier = FilterVariables(task.scaled[0]), MultiplierVariables(task.blocks)
     c, d, gamma = cp.Variable(n_f), cp.Variable(n_f), cp.Variable()
     constraints = [*positive(variables), d >= 1.0, d - cp.multiply(1.0 / a, c) >= 1.0]
-    for augmented in task.plants:
+    for augmented in task.scaled:
         quadruple = augmented.with_reference(start.A, start.B, cp.diag(c), cp.diag(d))
         constraints += inequality(upper_part(augmented, quadruple, variables, multiplier, gamma))
-    solve(cp.Problem(cp.Minimize(gamma), constraints), solver, "reference of fixed poles", infeasible="no filter exists.")
+    solve(
+        cp.Problem(cp.Minimize(gamma), constraints), solver, "reference of fixed poles", infeasible="no filter exists."
+    )
     found = StateSpace.diagonal(a, np.ones(n_f), np.asarray(c.value), np.asarray(d.value))
     final = normalised(found, Freedom.diagonal(found))
     return synthesize(plant, final, uncertainty, weights, solver=solver, relax=relax)
@@ -159,19 +161,18 @@ def normalised(reference: StateSpace, freedom: Freedom) -> StateSpace:
 def _is_diagonal(reference: StateSpace, freedom: Freedom) -> bool:
     """Whether all four matrices are diagonal and stay so."""
     pairs = [(getattr(reference, name), np.asarray(getattr(freedom, name))) for name in "ABCD"]
-    return all(not np.any((M != 0.0) & ~np.eye(*M.shape, dtype=bool)) for pair in pairs for M in pair)
+    return all(not np.any((M != 0.0) & (np.eye(*M.shape) == 0.0)) for pair in pairs for M in pair)
 
 
 def _step(task: Task, about: Solution, freedom: Freedom) -> tuple[Iteration, Solution] | None:
     """Step 5 of Algorithm 1 about the task's reference, (66)-(68); None when the solver gives no reliable answer."""
-    import cvxpy as cp
-
+    cp = modelling()
     reference = task.reference
-    variables, multiplier = FilterVariables(task.plants[0]), MultiplierVariables(task.blocks)
+    variables, multiplier = FilterVariables(task.scaled[0]), MultiplierVariables(task.blocks)
     moving, gamma = ReferenceVariables(reference, freedom), cp.Variable()
     scale = _balance(task, about)
     constraints = positive(variables) + sensitivity_about(moving, reference, storage(reference, task.solver))
-    for plant in task.plants:
+    for plant in task.scaled:
         constraints += inequality_about(plant, variables, multiplier, moving, gamma, (about, reference), scale)
     if attempt(cp.Problem(cp.Minimize(gamma), constraints), task.solver, "Algorithm 1") != "optimal":
         return None

@@ -12,17 +12,16 @@ import numpy as np
 
 from fddbench.design.admissible import require_admissible
 from fddbench.design.bounds import lower_bound
+from fddbench.design.coordinates import balancing
 from fddbench.design.norms import hinf_norm
 from fddbench.design.problem import augment
-from fddbench.design.synthesis import Proven, Task, moderate, optimal
+from fddbench.design.proof import Proven, Task
+from fddbench.design.synthesis import moderate, optimal
 from fddbench.design.systems import StateSpace, UncertainPlant, Weights
 from fddbench.design.uncertainty import NormBounded, Polytope, Uncertainty, blocks_of
 from fddbench.errors import DesignError
 
 __all__ = ["Design", "idle_gamma", "prepare", "synthesize"]
-
-FLOOR = 0.3
-"""``Y - Z ⪰ 0.3 I`` in the second step: gives the jet engine filters with poles between 0.01 and 3 rad/s."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,18 +49,23 @@ class Design(Proven):
 def prepare(
     plant: UncertainPlant, reference: StateSpace, uncertainty: Uncertainty, weights: Weights | None, solver: str
 ) -> Task:
-    """The optimisation for admissible data; refuses all other data with advice."""
+    """Return the optimisation for admissible data; refuses all other data with advice."""
     members = uncertainty.vertices if isinstance(uncertainty, Polytope) else (plant,)
     for name in ("A", "Bf", "Bd", "B", "C", "Df", "Dd", "D"):
         ours, theirs = getattr(plant, name).shape, getattr(members[0], name).shape
         if ours != theirs:
             raise DesignError(f"{name} of the plant has shape {ours} but {name} of the vertices has shape {theirs}.")
     if not plant.n_y or not plant.inputs[0]:
-        raise DesignError(f"a filter needs outputs and faults: C has shape {plant.C.shape}, Bf has shape {plant.Bf.shape}.")
+        raise DesignError(
+            f"a filter needs outputs and faults: C has shape {plant.C.shape}, Bf has shape {plant.Bf.shape}."
+        )
     blocks = () if isinstance(uncertainty, Polytope) else blocks_of(uncertainty, plant)
     plants = tuple(augment(member, reference, weights) for member in members)
     require_admissible(members, reference, uncertainty, blocks, solver)
-    return Task(plants=plants, blocks=blocks, reference=reference, solver=solver)
+    idle = idle_gamma(reference, plant, weights)
+    return Task(
+        plants=plants, blocks=blocks, reference=reference, solver=solver, T=balancing(plants[0]), idle_gamma=idle
+    )
 
 
 def synthesize(
@@ -75,8 +79,8 @@ def synthesize(
 ) -> Design:
     """Filter that follows ``r = T_ref f`` best in the worst case, for a fixed reference.
 
-    Minimises γ of ``sup ‖[(T_rf - T_ref) W_f, T_rd W_d, T_ru W_u]‖∞ < γ`` over all filters of the order of plant, weights and
-    reference together: Lemma 4 for a `NormBounded` Δ, Lemma 5 for a `Structured` one, Lemma 6 for a `Polytope`.
+    Minimises γ of ``sup ‖[(T_rf - T_ref) W_f, T_rd W_d, T_ru W_u]‖∞ < γ`` over all filters of the order of plant,
+    weights and reference together: Lemma 4 for a `NormBounded` Δ, Lemma 5 for a `Structured` one, Lemma 6 for a `Polytope`.
 
     Parameters
     ----------
@@ -91,7 +95,7 @@ def synthesize(
     solver : {"CLARABEL", "SCS", "MOSEK"}
         Solver by name.
     relax : float or None
-        How much larger [-] γ of the moderate filter may be; None leaves the second step out.
+        How much larger [-] γ of the moderate filter may be, more where that gives none; None leaves the step out.
 
     Returns
     -------
@@ -105,16 +109,17 @@ def synthesize(
     """
     task = prepare(plant, reference, uncertainty or NormBounded(), weights, solver)
     best = optimal(task)
-    idle = idle_gamma(reference, plant, weights)
+    idle = task.idle_gamma
     if best.gamma >= 0.999 * idle:
         raise DesignError(
-            f"the best gamma is {best.gamma:.5g}, and a residual that is always zero has {idle:.5g}: for this reference no filter tells "
-            "the faults from the rest. Reasons: disturbances or uncertainty as large as the faults (lower W_d, W_u, FA, FC), or a "
-            "zero of the faults in the right half-plane (a reference with the same zero, more outputs)."
+            f"the best gamma is {best.gamma:.5g}, and a residual that is always zero has {idle:.5g}: for this "
+            "reference no filter tells the faults from the rest. Reasons: disturbances or uncertainty as large as the faults "
+            "(lower W_d, W_u, FA, FC), or a zero of the faults in the right half-plane (more outputs, or a reference with "
+            "the same zero)."
         )
     second = None
     if relax is not None:
-        second = moderate(task, best.gamma + min(max(relax * best.gamma, 1e-3 * idle), 0.5 * (idle - best.gamma)), FLOOR)
+        second = moderate(task, best.gamma, relax)
     bound = lower_bound(task.plants, reference, task.blocks, solver=solver)
     return Design(**vars(best), reference=reference, lower_bound=bound, idle_gamma=idle, moderate=second)
 
@@ -123,5 +128,7 @@ def idle_gamma(reference: StateSpace, plant: UncertainPlant, weights: Weights | 
     """γ of the residual that is always zero, ``‖T_ref W_f‖∞`` [-]."""
     W = (weights or Weights()).systems(plant.inputs)[0]
     A = np.block([[reference.A, reference.B @ W.C], [np.zeros((W.order, reference.order)), W.A]])
-    both = StateSpace(A, np.vstack([reference.B @ W.D, W.B]), np.hstack([reference.C, reference.D @ W.C]), reference.D @ W.D)
+    both = StateSpace(
+        A, np.vstack([reference.B @ W.D, W.B]), np.hstack([reference.C, reference.D @ W.C]), reference.D @ W.D
+    )
     return hinf_norm(both).value

@@ -1,6 +1,7 @@
 """Climbing towards the worst Δ at one frequency: the gain of a linear fractional map over a structured ball."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -10,7 +11,7 @@ from fddbench.interfaces import Floats
 
 __all__ = ["Fraction", "climb"]
 
-Matrix = Floats | npt.NDArray[np.complex128]
+Matrix = npt.NDArray[Any]
 
 
 @dataclass(frozen=True)
@@ -24,10 +25,11 @@ class Fraction:
 
     def at(self, delta: Floats) -> Matrix:
         """T at one Δ, (n_w, n_z)."""
-        return np.asarray(self.rv + self.rw @ np.linalg.solve(np.eye(len(delta)) - delta @ self.zw, delta @ self.zv))
+        inner: Matrix = np.linalg.solve(np.eye(len(delta)) - delta @ self.zw, delta @ self.zv)
+        return np.asarray(self.rv + self.rw @ inner)
 
     def gradient(self, delta: Floats) -> Floats:
-        """Derivative of the largest singular value of T with respect to Δ, (n_w, n_z)."""
+        """Return the derivative of the largest singular value of T with respect to Δ, (n_w, n_z)."""
         left, _, right = np.linalg.svd(self.at(delta), full_matrices=False)
         seen = np.linalg.solve(np.eye(len(self.zw)) - self.zw @ delta, self.zv @ right[0].conj())
         acting = np.linalg.solve((np.eye(len(delta)) - delta @ self.zw).conj().T, self.rw.conj().T @ left[:, 0])
@@ -39,7 +41,7 @@ class Fraction:
 
 
 def climb(fraction: Fraction, blocks: tuple[Block, ...], start: Floats, *, steps: int = 30) -> tuple[Floats, float]:
-    """A Δ with at least the gain of `start`: full steps to the extreme point that the gradient prefers, halved when they fail.
+    """Climb from `start` by full steps to the extreme point that the gradient prefers, halved when they fail.
 
     Returns
     -------

@@ -1,11 +1,12 @@
 """One way to call cvxpy: a solver by name, and no answer that the solver itself doubts."""
 
 import warnings
+from importlib import import_module
 from typing import Any
 
 from fddbench.errors import DesignError, did_you_mean
 
-__all__ = ["SOLVERS", "attempt", "solve"]
+__all__ = ["SOLVERS", "attempt", "modelling", "solve"]
 
 SOLVERS: dict[str, dict[str, Any]] = {
     "CLARABEL": {},
@@ -15,14 +16,22 @@ SOLVERS: dict[str, dict[str, Any]] = {
 """Solvers for linear matrix inequalities with the options that make their answers worth certifying."""
 
 
-def attempt(problem: Any, solver: str, what: str) -> str:
-    """Status of a cvxpy problem after solving: "optimal", "optimal_inaccurate", "infeasible" ...; "failed" for a breakdown."""
-    import cvxpy
+def modelling() -> Any:
+    """Import cvxpy when it is first needed, since that takes a second, and as untyped, since that is what it is."""
+    return import_module("cvxpy")
 
+
+def attempt(problem: Any, solver: str, what: str) -> str:
+    """Solve and return the status: "optimal", "optimal_inaccurate", "infeasible" ...; "failed" for a breakdown."""
+    cvxpy = modelling()
     if solver not in SOLVERS:
-        raise DesignError(f"no solver is called {solver!r}. {did_you_mean(solver, SOLVERS)}\nKnown: {', '.join(SOLVERS)}.")
+        raise DesignError(
+            f"no solver is called {solver!r}. {did_you_mean(solver, SOLVERS)}\nKnown: {', '.join(SOLVERS)}."
+        )
     if solver not in cvxpy.installed_solvers():
-        raise DesignError(f"{what}: solver {solver} is not installed (MOSEK: `pip install mosek` and a licence); use CLARABEL.")
+        raise DesignError(
+            f"{what}: solver {solver} is not installed (MOSEK: `pip install mosek` and a licence); use CLARABEL."
+        )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:

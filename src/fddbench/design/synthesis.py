@@ -1,110 +1,28 @@
 """The two optimisations behind a design: the smallest γ, then a filter of moderate size for a slightly larger one."""
 
-from dataclasses import dataclass, field
-from typing import Any
-
 import numpy as np
 
-from fddbench.design.certificate import Certificate, certify
-from fddbench.design.lmi import FilterVariables, Solution, inequality, positive, upper_part
-from fddbench.design.multipliers import Multiplier, MultiplierVariables
-from fddbench.design.problem import Augmented, ClosedLoop, Filter, close
-from fddbench.design.solver import attempt
-from fddbench.design.systems import StateSpace
-from fddbench.design.uncertainty import Block, sample_delta
-from fddbench.design.worst_case import hull_members
+from fddbench.design.proof import Proven, Task, prove
+from fddbench.design.solver import attempt, modelling
 from fddbench.errors import DesignError
+from fddbench.interfaces import Floats
 
-__all__ = ["N_SAMPLED", "Proven", "Task", "moderate", "optimal", "prove"]
-
-N_SAMPLED = 50
-"""Members of the set at which a certificate checks (15) besides the robust inequality, which already covers all of them."""
+__all__ = ["moderate", "optimal"]
 
 SLACKS = (1e-5, 1e-4, 1e-3)
-"""Relative steps above the smallest γ that are tried when the solver reaches it only in the limit of infinite gains."""
+"""Steps above the smallest γ that are tried when the solver reaches it only in the limit of infinite gains [-]."""
 
-
-@dataclass(frozen=True, kw_only=True)
-class Proven:
-    """A filter with the γ it guarantees.
-
-    Attributes
-    ----------
-    filter : Filter
-        The filter (8).
-    gamma : float
-        ``‖[(T_rf - T_ref) W_f, T_rd W_d, T_ru W_u]‖∞ < gamma`` for every plant of the set [-].
-    multiplier : Multiplier or None
-        S and G of Lemma 5, λI and 0 of Lemma 4; None for a polytope or a certain plant.
-    certificate : Certificate
-        Eigenvalues that prove it.
-    loops : tuple of ClosedLoop
-        The closed loop with its Δ channel, or those at the vertices of a polytope.
-    blocks : tuple of Block
-        Structure of Δ.
-    solution : Solution
-        The point Z, Y, Â, ... of the inequality.
-    """
-
-    filter: Filter
-    gamma: float
-    multiplier: Multiplier | None
-    certificate: Certificate
-    loops: tuple[ClosedLoop, ...] = field(repr=False)
-    blocks: tuple[Block, ...] = field(repr=False)
-    solution: Solution = field(repr=False)
-
-    @property
-    def lambda_(self) -> float | None:
-        """The multiplier λ of Lemma 4; None where there is none or a matrix S."""
-        if self.multiplier is None or len(self.blocks) != 1:
-            return None
-        return float(self.multiplier.scalars[0])
-
-
-@dataclass(frozen=True, kw_only=True)
-class Task:
-    """Everything an optimisation needs to know: augmented plants, structure of Δ, reference, solver."""
-
-    plants: tuple[Augmented, ...]
-    blocks: tuple[Block, ...]
-    reference: StateSpace
-    solver: str
-
-    def constraints(self, gamma: Any) -> tuple[list[Any], FilterVariables, MultiplierVariables]:
-        """(37) or (44), or (47) at every vertex, with (38)."""
-        variables, multiplier = FilterVariables(self.plants[0]), MultiplierVariables(self.blocks)
-        constraints, R = positive(variables), self.reference
-        for plant in self.plants:
-            quadruple = plant.with_reference(R.A, R.B, R.C, R.D)
-            constraints += inequality(upper_part(plant, quadruple, variables, multiplier, gamma))
-        return constraints, variables, multiplier
-
-
-def prove(task: Task, solution: Solution, multiplier: Multiplier, gamma: float) -> Proven:
-    """The filter of a solution with its certificate, which may still fail."""
-    filter_ = solution.filter()
-    loops = tuple(close(plant, task.reference, filter_) for plant in task.plants)
-    if task.blocks:
-        members = [loops[0].at(delta) for delta in sample_delta(task.blocks, N_SAMPLED, seed=0)]
-    else:
-        mixes = np.random.default_rng(0).dirichlet(np.full(len(loops), 0.5), N_SAMPLED if len(loops) > 1 else 1)
-        members = hull_members(loops, mixes)
-    used = multiplier if task.blocks else None
-    certificate = certify(loops, solution.lyapunov(), gamma, used, members)
-    return Proven(
-        filter=filter_, gamma=gamma, multiplier=used, certificate=certificate, loops=loops, blocks=task.blocks, solution=solution
-    )  # fmt: skip
+FLOOR = 0.3
+"""``Y - Z ⪰ 0.3 I`` in the second step: gives the jet engine filters with poles between 0.01 and 3 rad/s."""
 
 
 def optimal(task: Task) -> Proven:
-    """The smallest γ with its filter, certified.
+    """Find the smallest γ with its filter, certified.
 
     Where the infimum asks for infinite gains the solver's point has no certificate; then the smallest of a few slightly
     larger γ that has one is the result. A value that the solver calls inaccurate is only ever used as such a hint.
     """
-    import cvxpy as cp
-
+    cp = modelling()
     gamma = cp.Variable()
     constraints, variables, multiplier = task.constraints(gamma)
     status = attempt(cp.Problem(cp.Minimize(gamma), constraints), task.solver, "filter synthesis")
@@ -119,7 +37,7 @@ def optimal(task: Task) -> Proven:
         if proven.certificate.holds:
             return proven
     for slack in SLACKS:
-        centred = _centred(task, hint * (1.0 + slack) + 1e-7, 0.3)
+        centred = _centred(task, hint + slack * max(hint, 0.1 * task.idle_gamma), 0.6)
         if centred and centred[0].certificate.holds:
             return centred[0]
     raise DesignError(
@@ -129,44 +47,57 @@ def optimal(task: Task) -> Proven:
     )
 
 
-def moderate(task: Task, gamma: float, floor: float) -> Proven:
-    """A filter of moderate size for a given γ: minimise ‖Â‖ while ``Y - Z ⪰ floor I`` keeps N = Z - Y far from singular.
+def moderate(task: Task, best: float, relax: float) -> Proven:
+    """Find a filter of moderate size for γ a fraction `relax` above the best, or twice, four or eight times as far.
 
-    The floor is halved below the largest feasible one where `floor` itself is not feasible.
+    γ stays below the middle between the best one and that of a zero residual, which would be the most moderate of all.
     """
-    smallest = _smallest(task, gamma, floor)
+    for factor in (1.0, 2.0, 4.0, 8.0):
+        step = max(factor * relax * best, 1e-3 * task.idle_gamma)
+        found = _moderate(task, best + min(step, 0.5 * (task.idle_gamma - best)), FLOOR)
+        if found:
+            return found
+    raise DesignError(
+        f"second step: {task.solver} finds no filter of moderate size up to {8.0 * relax:.0%} above gamma = {best:.5g}; "
+        "use a larger relax, or relax=None for the optimum alone."
+    )
+
+
+def _moderate(task: Task, gamma: float, floor: float) -> Proven | None:
+    """Find a filter of moderate size: smallest ‖Â‖ with ``Y - Z ⪰ floor I``, so N = Z - Y is regular.
+
+    Both refer to the coordinates of the plant; where that finds nothing, to the balanced ones, and last with the floor
+    halved below the largest feasible one.
+    """
+    T, unit = task.T, np.eye(len(task.T))
+    smallest = _smallest(task, gamma, floor, T) or _smallest(task, gamma, floor, unit)
     if smallest is None:
-        centred = _centred(task, gamma, floor)
+        centred = _centred(task, gamma, 2.0 * floor)
         if centred is None:
-            raise DesignError(
-                f"second step: {task.solver} finds no filter of moderate size for gamma = {gamma:.5g}; use a larger relax, "
-                "or relax=None for the optimum alone."
-            )
-        smallest = _smallest(task, gamma, 0.5 * centred[1]) or centred[0]
-    smallest.certificate.require()
-    return smallest
+            return None
+        smallest = _smallest(task, gamma, 0.5 * centred[1], unit) or centred[0]
+    return smallest if smallest.certificate.holds else None
 
 
-def _smallest(task: Task, gamma: float, floor: float) -> Proven | None:
-    """Filter with the smallest ‖Â‖ above the floor; None when there is none with a certificate."""
-    import cvxpy as cp
-
+def _smallest(task: Task, gamma: float, floor: float, T: Floats) -> Proven | None:
+    """Filter with the smallest ‖Â‖ above the floor in the coordinates ``T η``; None when it has no certificate."""
+    cp = modelling()
     constraints, variables, multiplier = task.constraints(gamma)
-    constraints.append(variables.Y - variables.Z >> floor * np.eye(len(task.plants[0].A)))
-    goal = cp.Problem(cp.Minimize(cp.norm(cp.vec(variables.A, order="F"), 2)), constraints)
-    if attempt(goal, task.solver, "second step") != "optimal":
+    constraints.append(variables.Y - variables.Z >> floor * T.T @ T)
+    inverse = np.linalg.inv(T)
+    size = cp.norm(cp.vec(inverse.T @ variables.A @ inverse, order="F"), 2)
+    if attempt(cp.Problem(cp.Minimize(size), constraints), task.solver, "second step") != "optimal":
         return None
     proven = prove(task, variables.value(task.plants[0].n_y), multiplier.value(), gamma)
     return proven if proven.certificate.holds else None
 
 
 def _centred(task: Task, gamma: float, most: float) -> tuple[Proven, float] | None:
-    """Filter with the largest ``Y - Z ⪰ t I``, t ≤ 2 most, and that t; None when the solver finds none."""
-    import cvxpy as cp
-
+    """Filter with the largest ``Y - Z ⪰ t I``, t ≤ most, in balanced coordinates, and t; None when none is found."""
+    cp = modelling()
     constraints, variables, multiplier = task.constraints(gamma)
     t = cp.Variable()
-    constraints += [variables.Y - variables.Z >> t * np.eye(len(task.plants[0].A)), t <= 2.0 * most]
+    constraints += [variables.Y - variables.Z >> t * np.eye(len(task.T)), t <= most]
     if attempt(cp.Problem(cp.Maximize(t), constraints), task.solver, "second step") != "optimal":
         return None
     return prove(task, variables.value(task.plants[0].n_y), multiplier.value(), gamma), float(t.value)

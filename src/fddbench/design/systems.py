@@ -1,7 +1,7 @@
 """Linear systems as the synthesis sees them: state space, uncertain plant, weights; refused when shapes do not fit."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Self
 
 import numpy as np
@@ -123,7 +123,7 @@ class UncertainPlant:
         return self.Bf.shape[1], self.Bd.shape[1], self.B.shape[1]
 
     def at(self, delta: Floats) -> "UncertainPlant":
-        """The certain plant at one Δ, (n_w, n_z), equation (5)."""
+        """Return the certain plant at one Δ, (n_w, n_z), equation (5)."""
         delta_h = np.linalg.solve(np.eye(len(delta)) - delta @ self.H, delta)
         x, y = self.FA @ delta_h, self.FC @ delta_h
         return UncertainPlant(
@@ -148,7 +148,7 @@ class Weights:
     W_u: StateSpace | npt.ArrayLike | None = None
 
     def systems(self, inputs: tuple[int, int, int]) -> tuple[StateSpace, StateSpace, StateSpace]:
-        """The three weights as systems for `inputs` = (n_f, n_d, n_u); refuses unstable ones and other sizes."""
+        """Return the three weights as systems for `inputs` = (n_f, n_d, n_u); refuses unstable ones and other sizes."""
         named = {"W_f": self.W_f, "W_d": self.W_d, "W_u": self.W_u}
         f, d, u = (_weight(name, value, n) for (name, value), n in zip(named.items(), inputs, strict=True))
         return f, d, u
@@ -160,10 +160,16 @@ def _weight(name: str, value: StateSpace | npt.ArrayLike | None, n: int) -> Stat
         return StateSpace.gain(np.eye(n).reshape(n, n))
     weight = value if isinstance(value, StateSpace) else StateSpace.gain(value)
     if weight.D.shape[0] != n:
-        counted = {"W_f": "faults (columns of Bf)", "W_d": "disturbances (columns of Bd)", "W_u": "inputs (columns of B)"}
+        counted = {
+            "W_f": "faults (columns of Bf)",
+            "W_d": "disturbances (columns of Bd)",
+            "W_u": "inputs (columns of B)",
+        }
         raise DesignError(f"{name} has D of shape {weight.D.shape}, need {n} rows: the plant has {n} {counted[name]}.")
     if not weight.stable():
-        raise DesignError(f"{name} is unstable: poles {np.round(weight.poles(), 4)}. Use a stable weight, e.g. 1/(s + 0.01) for 1/s.")
+        raise DesignError(
+            f"{name} is unstable: poles {np.round(weight.poles(), 4)}. Use a stable weight, e.g. 1/(s + 0.01) for 1/s."
+        )
     return weight
 
 
@@ -178,18 +184,20 @@ def _adopt(system: Any, layout: Mapping[str, str], counted: Mapping[str, str]) -
     matrices = {name: np.array(value, dtype=float) for name, value in given.items()}
     for name, matrix in matrices.items():
         if matrix.ndim != 2 or not np.all(np.isfinite(matrix)):
-            mistakes.append(f"{name} must be a finite matrix with two axes, got shape {matrix.shape}: {given[name]!r:.80}")
+            mistakes.append(
+                f"{name} must be a finite matrix with two axes, got shape {matrix.shape}: {given[name]!r:.80}"
+            )
             continue
         for axis, letter in enumerate(layout[name]):
             size, first = sizes.setdefault(letter, (matrix.shape[axis], name))
             if matrix.shape[axis] != size:
                 what = ("rows", "columns")[axis]
                 mistakes.append(
-                    f"{name} {matrix.shape} has {matrix.shape[axis]} {what} but {first} {matrices[first].shape} has {size} "
-                    f"{counted[letter]}; they must agree"
+                    f"{name} {matrix.shape} has {matrix.shape[axis]} {what} but {first} {matrices[first].shape} "
+                    f"has {size} {counted[letter]}; they must agree"
                 )
     if mistakes:
         raise DesignError(f"{type(system).__name__} does not fit together:\n  " + "\n  ".join(mistakes))
-    for name, (rows, columns) in layout.items():
-        shape = tuple(sizes.get(letter, (0, ""))[0] for letter in (rows, columns))
+    for name, letters in layout.items():
+        shape = tuple(sizes.get(letter, (0, ""))[0] for letter in letters)
         object.__setattr__(system, name, matrices.get(name, np.zeros(shape)))

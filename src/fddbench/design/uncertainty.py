@@ -9,7 +9,18 @@ from fddbench.design.systems import UncertainPlant
 from fddbench.errors import DesignError
 from fddbench.interfaces import Floats
 
-__all__ = ["Block", "FullBlock", "NormBounded", "Polytope", "RepeatedReal", "Structured", "Uncertainty", "block_diagonal", "blocks_of", "sample_delta"]
+__all__ = [
+    "Block",
+    "FullBlock",
+    "NormBounded",
+    "Polytope",
+    "RepeatedReal",
+    "Structured",
+    "Uncertainty",
+    "block_diagonal",
+    "blocks_of",
+    "sample_delta",
+]
 
 
 class Block(Protocol):
@@ -20,10 +31,10 @@ class Block(Protocol):
         """Rows and columns."""
 
     def sample(self, random: np.random.Generator) -> Floats:
-        """A Δ of the block, mostly on the boundary."""
+        """Draw a Δ of the block, mostly on the boundary."""
 
     def steepest(self, gradient: Floats) -> Floats:
-        """The Δ of the block that maximises ``trace(gradientᵀ Δ)``; one of its extreme points."""
+        """Return the Δ of the block that maximises ``trace(gradientᵀ Δ)``; one of its extreme points."""
 
 
 @dataclass(frozen=True)
@@ -115,9 +126,13 @@ class Polytope:
             for name in ("A", "Bf", "Bd", "B", "C", "Df", "Dd", "D"):
                 ours, theirs = getattr(vertex, name).shape, getattr(first, name).shape
                 if ours != theirs:
-                    raise DesignError(f"{name} of vertex {number} has shape {ours} but {name} of vertex 0 has shape {theirs}.")
+                    raise DesignError(
+                        f"{name} of vertex {number} has shape {ours} but {name} of vertex 0 has shape {theirs}."
+                    )
             if vertex.FA.size or vertex.EA.size:
-                raise DesignError(f"vertex {number} has an uncertainty channel FA, EA of its own; give vertices as plant.at(Δ).")
+                raise DesignError(
+                    f"vertex {number} has an uncertainty channel FA, EA of its own; give vertices as plant.at(Δ)."
+                )
 
 
 Uncertainty = NormBounded | Structured | Polytope

@@ -59,7 +59,11 @@ def worst_delta(
     order = np.argsort([-gain.value for gain in gains])
     sharp = hinf_norm(loop.at(deltas[order[0]]))
     worst = WorstCase(
-        norm=sharp.value, frequency=sharp.frequency, member=deltas[order[0]], sampled_norm=sharp.value, n_sampled=n_samples
+        norm=sharp.value,
+        frequency=sharp.frequency,
+        member=deltas[order[0]],
+        sampled_norm=sharp.value,
+        n_sampled=n_samples,
     )
     starts = [(deltas[i], gains[i].frequency) for i in order[:n_climbs]]
     starts += [(deltas[i], frequency) for i in order[:2] for frequency in (0.0, np.inf)]
@@ -72,7 +76,9 @@ def worst_delta(
     return worst
 
 
-def _ascend(loop: ClosedLoop, blocks: tuple[Block, ...], delta: Floats, frequency: float) -> tuple[Floats, float, float]:
+def _ascend(
+    loop: ClosedLoop, blocks: tuple[Block, ...], delta: Floats, frequency: float
+) -> tuple[Floats, float, float]:
     """Climb in Δ at the peak, move to the new peak, and again; Δ, norm, frequency."""
     norm = 0.0
     for _ in range(20):
@@ -97,13 +103,13 @@ def _fraction(loop: ClosedLoop, frequency: float) -> Fraction:
 
 
 def hull_members(loops: tuple[ClosedLoop, ...], mixes: Floats) -> list[StateSpace]:
-    """Closed loops at convex combinations of the vertices, (n, n_vertices); they are affine in the plant, (45)."""
+    """Return closed loops at convex combinations of the vertices, (n, n_vertices); they are affine in the plant."""
     stacked = [np.array([getattr(loop, name) for loop in loops]) for name in "ABCD"]
     return [StateSpace(*(np.tensordot(mix, matrices, 1) for matrices in stacked)) for mix in mixes]
 
 
 def worst_vertex_mix(loops: tuple[ClosedLoop, ...], *, n_samples: int = 1000, seed: int = 0) -> WorstCase:
-    """Worst ‖T‖∞ over a hull: all vertices, then mixes of a few of them, then steps from the worst towards every vertex."""
+    """Worst ‖T‖∞ over a hull: all vertices, mixes of a few of them, then steps from the worst towards every vertex."""
     n, random = len(loops), np.random.default_rng(seed)
     mixes = np.vstack([np.eye(n), random.dirichlet(np.full(n, 0.3), max(n_samples - n, 0))])
     gains = [hinf_norm(member, tolerance=1e-4) for member in hull_members(loops, mixes)]
