@@ -57,8 +57,9 @@ class Certificate:
             return self
         raise DesignError(
             f"gamma = {self.gamma:.6g} has no certificate: need Pc ≻ 0 (smallest eigenvalue {self.smallest_Pc:.3g}), "
-            f"(25) ≺ 0 ({self.largest_robust:.3g}) and (15) ≺ 0 at {self.n_sampled} samples ({self.largest_sampled:.3g}), "
-            f"beyond rounding {self.rounding:.1g}.\nAllow a larger gamma or scale states and signals to about one."
+            f"(25) ≺ 0 (largest {self.largest_robust:.3g}) and (15) ≺ 0 (largest of {self.n_sampled} samples "
+            f"{self.largest_sampled:.3g}), beyond rounding {self.rounding:.1g}.\n"
+            "Allow a larger gamma or scale states and signals to about one."
         )
 
 

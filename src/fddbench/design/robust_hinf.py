@@ -23,6 +23,9 @@ from fddbench.errors import DesignError
 
 __all__ = ["Design", "idle_gamma", "prepare", "synthesize"]
 
+IDLE = 0.99
+"""Share of the γ of a zero residual [-] above which a filter is refused: it would hardly differ from zero."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Design(Proven):
@@ -80,7 +83,8 @@ def synthesize(
     """Filter that follows ``r = T_ref f`` best in the worst case, for a fixed reference.
 
     Minimises γ of ``sup ‖[(T_rf - T_ref) W_f, T_rd W_d, T_ru W_u]‖∞ < γ`` over all filters of the order of plant,
-    weights and reference together: Lemma 4 for a `NormBounded` Δ, Lemma 5 for a `Structured` one, Lemma 6 for a `Polytope`.
+    weights and reference together: Lemma 4 for a `NormBounded` Δ, Lemma 5 for a `Structured` one,
+    Lemma 6 for a `Polytope`.
 
     Parameters
     ----------
@@ -110,12 +114,12 @@ def synthesize(
     task = prepare(plant, reference, uncertainty or NormBounded(), weights, solver)
     best = optimal(task)
     idle = task.idle_gamma
-    if best.gamma >= 0.999 * idle:
+    if best.gamma >= IDLE * idle:
         raise DesignError(
             f"the best gamma is {best.gamma:.5g}, and a residual that is always zero has {idle:.5g}: for this "
-            "reference no filter tells the faults from the rest. Reasons: disturbances or uncertainty as large as the faults "
-            "(lower W_d, W_u, FA, FC), or a zero of the faults in the right half-plane (more outputs, or a reference with "
-            "the same zero)."
+            "reference no filter tells the faults from the rest. Reasons: disturbances or uncertainty as large as the "
+            "faults (lower W_d, W_u, FA, FC), or a zero of the faults in the right half-plane (more outputs, or a "
+            "reference with the same zero)."
         )
     second = None
     if relax is not None:

@@ -58,7 +58,7 @@ def moderate(task: Task, best: float, relax: float) -> Proven:
         if found:
             return found
     raise DesignError(
-        f"second step: {task.solver} finds no filter of moderate size up to {8.0 * relax:.0%} above gamma = {best:.5g}; "
+        f"second step: {task.solver} finds no filter of moderate size within {8.0 * relax:.0%} of {best:.5g}; "
         "use a larger relax, or relax=None for the optimum alone."
     )
 

@@ -3,29 +3,44 @@
 from pathlib import Path
 
 import numpy as np
+import pytest
 import yaml
 
 from fddbench.design.norms import hinf_norm
+from fddbench.design.robust_hinf import synthesize
 from fddbench.design.systems import StateSpace, UncertainPlant
 
 DATA = yaml.safe_load((Path(__file__).parent / "jet_engine.yaml").read_text())
 
 
-def jet_engine() -> UncertainPlant:
+@pytest.fixture(scope="session")
+def engine() -> UncertainPlant:
+    """The jet engine of section 5 with its unstructured Δ."""
     names = {"A": "Ao", "B": "Bo", "C": "Co", "D": "Do"} | {
         name: name for name in ("Bf", "Bd", "Df", "Dd", "FA", "FC", "EA", "Ef", "Ed", "EB", "H")
     }
     return UncertainPlant(**{name: np.array(DATA[key], dtype=float) for name, key in names.items()})
 
 
-def printed(name: str) -> StateSpace:
-    return StateSpace.diagonal(**DATA[f"Tref_{name}"])
+@pytest.fixture(scope="session")
+def printed():
+    """The references (75), "init", and (78), "final", and the "identity" of Remark 5."""
+    return lambda name: StateSpace.diagonal(**DATA[f"Tref_{name}"])
 
 
-IDENTITY = StateSpace.gain(np.eye(3))
+@pytest.fixture(scope="session")
+def for_identity(engine):
+    """The design of the jet engine for ``T_ref = I``."""
+    return synthesize(engine, StateSpace.gain(np.eye(3)))
 
 
-def random_plant(seed: int, n_x: int, n_f: int, n_delta: int = 0) -> UncertainPlant:
+@pytest.fixture(scope="session")
+def random_plant():
+    """Random plants by seed, states, faults and size of Δ."""
+    return draw_plant
+
+
+def draw_plant(seed: int, n_x: int, n_f: int, n_delta: int = 0) -> UncertainPlant:
     """Stable plant whose faults have a stable inverse and outweigh disturbances and uncertainty."""
     random = np.random.default_rng(seed)
     n_y, n_d, n_u = n_f + random.integers(2), random.integers(3), random.integers(3)
