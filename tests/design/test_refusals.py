@@ -11,7 +11,7 @@ from fddbench.design import solver as solvers
 from fddbench.design.linearised import Freedom
 from fddbench.design.reference_search import normalised, optimize_fixed_poles
 from fddbench.design.robust_hinf import synthesize
-from fddbench.design.systems import StateSpace
+from fddbench.design.systems import StateSpace, UncertainPlant
 from fddbench.design.uncertainty import Polytope, RepeatedReal, Structured
 from fddbench.errors import DesignError
 
@@ -60,27 +60,12 @@ def test_polytopes(engine):
     refused("vertices is not quadratically stable", engine, IDENTITY, Polytope((far, back)))
     refused("vertex 1 is unstable", engine, IDENTITY, Polytope((vertex, replace(vertex, A=-vertex.A))))
     refused("rank 0", engine, IDENTITY, Polytope((vertex, replace(vertex, Df=0.0 * vertex.Df))))
-    with pytest.raises(DesignError, match="A of vertex 1 has shape"):
-        Polytope(
-            (
-                vertex,
-                replace(
-                    vertex,
-                    A=np.eye(2),
-                    Bf=np.ones((2, 3)),
-                    Bd=np.ones((2, 3)),
-                    B=np.ones((2, 3)),
-                    C=np.ones((3, 2)),
-                    FA=None,
-                    FC=None,
-                    EA=None,
-                    Ef=None,
-                    Ed=None,
-                    EB=None,
-                    H=None,
-                ),
-            )
-        )
+    single = UncertainPlant(**{name: -np.ones((1, 1)) for name in ("A", "Bf", "Bd", "B", "C", "Df", "Dd", "D")})
+    with pytest.raises(DesignError, match="A of vertex 1 has shape \\(1, 1\\) but A of vertex 0 has shape \\(3, 3\\)"):
+        Polytope((vertex, single))
+    refused(
+        "A of the plant has shape .* but A of the vertices has shape \\(1, 1\\)", engine, IDENTITY, Polytope((single,))
+    )
     with pytest.raises(DesignError, match="vertex 0 has an uncertainty channel"):
         Polytope((engine,))
     with pytest.raises(DesignError, match="at least one vertex"):

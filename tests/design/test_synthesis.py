@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from fddbench.design.certificate import certify
@@ -25,7 +25,11 @@ def first_order(n_f: int) -> StateSpace:
 @settings(max_examples=8, deadline=None, derandomize=True)
 def test_random_plants_get_a_certified_filter(random_plant, seed, n_x, n_f, n_delta, constant):
     plant = random_plant(seed, n_x, n_f, n_delta)
-    design = synthesize(plant, StateSpace.gain(np.eye(n_f)) if constant else first_order(n_f))
+    try:
+        design = synthesize(plant, StateSpace.gain(np.eye(n_f)) if constant else first_order(n_f))
+    except DesignError as refusal:
+        assume("a residual that is always zero" not in str(refusal))
+        raise
     assert design.lower_bound <= design.gamma < design.moderate.gamma < design.idle_gamma
     for proven in (design, design.moderate):
         assert proven.certificate.holds

@@ -96,7 +96,7 @@ def optimize_reference(
             break
     final = normalised(current, freedom) if len(history) > 1 else current
     design = synthesize(plant, final, uncertainty, weights, solver=solver, relax=relax)
-    bound = lower_bound_diagonal(task.plants, task.blocks, solver=solver) if _is_diagonal(reference, freedom) else 0.0
+    bound = lower_bound_diagonal(task.plants, task.blocks) if _is_diagonal(reference, freedom) else 0.0
     return ReferenceSearch(design=design, iterations=tuple(history), lower_bound=bound)
 
 

@@ -16,15 +16,12 @@ from fddbench.design.coordinates import balancing
 from fddbench.design.norms import hinf_norm
 from fddbench.design.problem import augment
 from fddbench.design.proof import Proven, Task
-from fddbench.design.synthesis import moderate, optimal
+from fddbench.design.synthesis import moderate, optimal, refuse_idle
 from fddbench.design.systems import StateSpace, UncertainPlant, Weights
 from fddbench.design.uncertainty import NormBounded, Polytope, Uncertainty, blocks_of
 from fddbench.errors import DesignError
 
 __all__ = ["Design", "idle_gamma", "prepare", "synthesize"]
-
-IDLE = 0.99
-"""Share of the γ of a zero residual [-] above which a filter is refused: it would hardly differ from zero."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -113,19 +110,12 @@ def synthesize(
     """
     task = prepare(plant, reference, uncertainty or NormBounded(), weights, solver)
     best = optimal(task)
-    idle = task.idle_gamma
-    if best.gamma >= IDLE * idle:
-        raise DesignError(
-            f"the best gamma is {best.gamma:.5g}, and a residual that is always zero has {idle:.5g}: for this "
-            "reference no filter tells the faults from the rest. Reasons: disturbances or uncertainty as large as the "
-            "faults (lower W_d, W_u, FA, FC), or a zero of the faults in the right half-plane (more outputs, or a "
-            "reference with the same zero)."
-        )
+    refuse_idle(best.gamma, task.idle_gamma)
     second = None
     if relax is not None:
         second = moderate(task, best.gamma, relax)
-    bound = lower_bound(task.plants, reference, task.blocks, solver=solver)
-    return Design(**vars(best), reference=reference, lower_bound=bound, idle_gamma=idle, moderate=second)
+    bound = lower_bound(task.plants, reference, task.blocks)
+    return Design(**vars(best), reference=reference, lower_bound=bound, idle_gamma=task.idle_gamma, moderate=second)
 
 
 def idle_gamma(reference: StateSpace, plant: UncertainPlant, weights: Weights | None) -> float:

@@ -10,7 +10,7 @@ __all__ = ["SOLVERS", "attempt", "modelling", "solve"]
 
 SOLVERS: dict[str, dict[str, Any]] = {
     "CLARABEL": {},
-    "SCS": {"eps": 1e-8, "max_iters": 200_000},
+    "SCS": {"eps": 1e-8, "max_iters": 50_000},
     "MOSEK": {},
 }
 """Solvers for linear matrix inequalities with the options that make their answers worth certifying."""

@@ -7,10 +7,13 @@ from fddbench.design.solver import attempt, modelling
 from fddbench.errors import DesignError
 from fddbench.interfaces import Floats
 
-__all__ = ["moderate", "optimal"]
+__all__ = ["moderate", "optimal", "refuse_idle"]
 
-SLACKS = (1e-5, 1e-4, 1e-3)
+SLACKS = (1e-5, 1e-4, 1e-3, 1e-2)
 """Steps above the smallest γ that are tried when the solver reaches it only in the limit of infinite gains [-]."""
+
+IDLE = 0.99
+"""Share of the γ of a zero residual [-] above which a filter is refused: it would hardly differ from zero."""
 
 FLOOR = 0.3
 """``Y - Z ⪰ 0.3 I`` in the second step: gives the jet engine filters with poles between 0.01 and 3 rad/s."""
@@ -40,11 +43,23 @@ def optimal(task: Task) -> Proven:
         centred = _centred(task, hint + slack * max(hint, 0.1 * task.idle_gamma), 0.6)
         if centred and centred[0].certificate.holds:
             return centred[0]
+    refuse_idle(hint, task.idle_gamma)
     raise DesignError(
         f"filter synthesis: {task.solver} stopped with status {status!r} at gamma about {hint:.5g}, and no gamma up to "
         f"{SLACKS[-1]:.1%} above it has a certificate; what a solver doubts proves nothing.\n"
         "Scale states and signals to about one (weights W_f, W_d, W_u), or try another solver."
     )
+
+
+def refuse_idle(gamma: float, idle: float) -> None:
+    """Refuse a γ that a residual which is always zero has as well."""
+    if gamma >= IDLE * idle:
+        raise DesignError(
+            f"the best gamma is {gamma:.5g}, and a residual that is always zero has {idle:.5g}: for this reference no "
+            "filter tells the faults from the rest. Reasons: disturbances or uncertainty as large as the faults (lower "
+            "W_d, W_u, FA, FC), or a zero of the faults in the right half-plane (more outputs, or a reference with the "
+            "same zero)."
+        )
 
 
 def moderate(task: Task, best: float, relax: float) -> Proven:
