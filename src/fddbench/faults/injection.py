@@ -66,7 +66,7 @@ class FaultStep:
         rows = np.repeat(np.concatenate(columns)[:, np.newaxis], n_cases, axis=1) if columns else np.zeros((0, n_cases))
         for j, fault in enumerate(faults):
             if fault.wave(units).phase_uniform:
-                site = 0 if fault.correlation == "identical" else slice(None)
+                site = slice(None) if fault.correlation == "independent" else 0
                 start = self.slot.size * j + self.slot.index["phase"].start  # type: ignore[union-attr]
                 rows[start : start + len(self.sites)] = 2.0 * np.pi * phases[j, site]
         return rows
@@ -134,6 +134,6 @@ class FaultStep:
         ramp = np.minimum(np.maximum(c.rate_deg_s2 * time_s, -c.ramp_limit_deg_s), c.ramp_limit_deg_s)
         sine = c.amplitude_deg_s * sin(c.frequency_rad_s * time_s + c.phase)
         wave = c.offset_deg_s + ramp + sine + c.sigma_deg_s * random + c.bit_deg_s * bit
-        sum_ = c.keep * y + c.hold * held + c.sign * wave
+        sum_ = c.keep * y + c.hold * held + c.hold_value_deg_s + c.sign * wave
         clipped = np.minimum(np.maximum(sum_, -c.clip_deg_s), c.clip_deg_s)
         return np.where(active, clipped, y), held, bit

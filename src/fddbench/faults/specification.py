@@ -21,12 +21,14 @@ class SensorUnits:
 
 @dataclass(frozen=True, kw_only=True)
 class FaultWave:
-    """The one fault signal: ``keep y + hold y_onset + offset + ramp + sine + noise + bits``, clipped.
+    """The one fault signal: ``keep y + hold y_onset + hold_value + offset + ramp + sine + noise + bits``, clipped.
 
     Attributes
     ----------
     keep, hold : float
         Share of the healthy and of the frozen signal [-].
+    hold_value_deg_s : float
+        What stands in place of the healthy signal [deg/s]; the same on all sites, whatever the correlation.
     offset_deg_s, ramp_limit_deg_s, clip_deg_s : float
         Constant part, where the ramp stops, and where the sum is clipped [deg/s]; infinite for never.
     rate_deg_s2 : float
@@ -41,6 +43,7 @@ class FaultWave:
 
     keep: float = 1.0
     hold: float = 0.0
+    hold_value_deg_s: float = 0.0
     offset_deg_s: float = 0.0
     rate_deg_s2: float = 0.0
     ramp_limit_deg_s: float = field(default=float("inf"))
@@ -134,4 +137,4 @@ class FaultSpecification(BaseModel):
         if self.freeze:
             return {"keep": 0.0, "hold": 1.0}
         percent = (self.hold_value_percent or 0.0) / 100.0 * units.admissible_deg_s
-        return {"keep": 0.0, "offset_deg_s": percent + (self.hold_value_deg_s or 0.0)}
+        return {"keep": 0.0, "hold_value_deg_s": percent + (self.hold_value_deg_s or 0.0)}
