@@ -195,5 +195,5 @@ def _words(word: npt.ArrayLike, n_cases: int, padding: int) -> Any:
 
 def _aligned(size: int) -> Floats:
     """Workspace that starts at a cache line and, for the widest vectors, at a multiple of their size."""
-    space = np.empty(size + 16)
-    return space[(-space.ctypes.data % 128) // 8 :]
+    space = np.empty(size + 32)
+    return space[(-space.ctypes.data % 256) // 8 :]
