@@ -53,7 +53,6 @@ def test_the_order_of_the_sensors_does_not_matter_but_for_ties(voter, sensors):
 @given(st.tuples(numbers, numbers, numbers), st.integers(-8, 8))
 def test_shifts_and_mirrors_with_the_sensors(voter, values, shift):
     sensors = np.round(np.array(values))[:, np.newaxis]  # integers: every sum is exact
-    a, b, c = np.abs(sensors[[0, 0, 1], 0] - sensors[[1, 2, 2], 0])
     assert voter.vote(sensors + shift) == voter.vote(sensors) + shift
     assert voter.vote(-sensors) == -voter.vote(sensors)
 

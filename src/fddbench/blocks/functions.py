@@ -148,13 +148,15 @@ def interpolate(x: Rows, knots: Rows, values: Rows) -> Rows:
     knots, values : (n_knots, n_cases) arrays
         Breakpoints in rising order and the values there; a repeated breakpoint is a step, taken at its later value.
     """
-    result = values[0]
+    left, value, width, rise = knots[0], values[0], np.ones_like(values[0]), np.zeros_like(values[0])
     for j in range(1, len(knots)):
-        width = knots[j] - knots[j - 1]
-        share = (x - knots[j - 1]) / np.where(width > 0.0, width, 1.0)
-        inside = values[j - 1] + np.minimum(share, 1.0) * (values[j] - values[j - 1])
-        result = np.where(x >= knots[j - 1], np.where(x >= knots[j], values[j], inside), result)
-    return result
+        beyond = x >= knots[j - 1]
+        left = np.where(beyond, knots[j - 1], left)
+        value = np.where(beyond, values[j - 1], value)
+        width = np.where(beyond, knots[j] - knots[j - 1], width)
+        rise = np.where(beyond, values[j] - values[j - 1], rise)
+    inside = value + np.minimum((x - left) / np.where(width > 0.0, width, 1.0), 1.0) * rise
+    return np.where(x >= knots[-1], values[-1], np.where(x >= knots[0], inside, values[0]))
 
 
 def interpolate_2d(x: Rows, y: Rows, x_knots: Rows, y_knots: Rows, values: Rows) -> Rows:
