@@ -2,6 +2,7 @@
 
 import builtins
 from concurrent.futures import ThreadPoolExecutor
+from importlib.metadata import PackageNotFoundError
 from typing import Any
 
 import numpy as np
@@ -154,8 +155,13 @@ def test_an_unknown_back_end() -> None:
         build(_program(), backend="gpu")
 
 
-def test_without_llvmlite_numpy_flies(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(llvm, "find_spec", lambda _: None)
+def _not_installed(_: str) -> str:
+    raise PackageNotFoundError
+
+
+@pytest.mark.parametrize("version", [_not_installed, lambda _: "0.44.0"])
+def test_without_llvmlite_numpy_flies(monkeypatch: pytest.MonkeyPatch, version: Any) -> None:
+    monkeypatch.setattr(llvm, "version", version)
     assert not llvm.available()
     assert isinstance(build(_program(), **DRAWS), Interpreted)
     with pytest.raises(FddbenchError, match="pip install llvmlite"):

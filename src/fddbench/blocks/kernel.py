@@ -84,7 +84,7 @@ def build(
         raise FddbenchError(f"no back end is called {backend!r}; known: auto, llvm, numpy")
     if backend == "llvm" and not llvm.available():
         raise FddbenchError(
-            "the back end 'llvm' needs llvmlite: pip install llvmlite, or --backend numpy (the same bits)"
+            "the back end 'llvm' needs llvmlite 0.45 or later: pip install llvmlite, or --backend numpy (the same bits)"
         )
     kept = program.keep("state", *(["finished"] if "finished" in program.outputs else []), *recorded)
     streams = (*((c, "flight") for c in consumers), *((c, "scenario") for c in fault_consumers))

@@ -4,7 +4,7 @@ import ctypes
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from importlib.util import find_spec
+from importlib.metadata import PackageNotFoundError, version
 from itertools import count
 from typing import Any
 
@@ -18,6 +18,7 @@ _NAMED = {
     "haswell": ("haswell", "", ("avx2", "fma", "bmi2"), 4),
 }
 _ARGUMENTS = (*[ctypes.c_int64] * 3, ctypes.c_uint64, *[ctypes.c_void_p] * 8)
+_OLDEST = (0, 45)
 _libraries = count()
 
 
@@ -48,8 +49,12 @@ class Machine:
 
 
 def available() -> bool:
-    """Whether llvmlite is installed."""
-    return find_spec("llvmlite") is not None
+    """Whether llvmlite is installed, in a version whose LLVM reads what `ir` writes."""
+    try:
+        major, minor = version("llvmlite").split(".")[:2]
+    except PackageNotFoundError:
+        return False
+    return (int(major), int(minor)) >= _OLDEST
 
 
 @cache
