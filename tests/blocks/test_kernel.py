@@ -147,7 +147,7 @@ def test_rings_are_addressed_directly() -> None:
     deep = trace(lambda state, sample: {"state": ring(state, state[3] + 1.0, sample)[0]}, state=500, sample=0)
     kernel = build(deep, backend="llvm")
     assert isinstance(kernel, Compiled)
-    assert len(kernel.text.splitlines()) < 200
+    assert len(kernel.text().splitlines()) < 200
 
 
 def test_an_unknown_back_end() -> None:
