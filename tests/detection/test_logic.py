@@ -1,7 +1,6 @@
 """Outlier, confirmation, choice and latch: the laws of the decision logic."""
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 

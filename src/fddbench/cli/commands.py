@@ -21,7 +21,15 @@ def run(args: argparse.Namespace) -> int:
     campaign = read_campaign(args.campaign, args.overrides)
     folder = args.out or Path("results") / campaign.name
     with shown(campaign.name, quiet=args.quiet) as progress:
-        report = run_campaign(campaign, folder, jobs=args.jobs, fresh=args.fresh, progress=progress)
+        report = run_campaign(
+            campaign,
+            folder,
+            jobs=args.jobs,
+            fresh=args.fresh,
+            backend=args.backend,
+            progress=progress,
+            notice=lambda text: print(f"fddbench: {text}", file=sys.stderr),
+        )
     if report.interrupted:
         done = report.continued + report.flights
         print(

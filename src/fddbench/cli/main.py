@@ -32,6 +32,10 @@ def parser() -> argparse.ArgumentParser:
         "--jobs", type=_jobs, default=2, metavar="N", help="worker processes (default: 2); no part of any result"
     )
     run.add_argument("--fresh", action="store_true", help="replace what the folder holds")
+    run.add_argument(
+        "--backend", choices=("auto", "llvm", "numpy"), default="auto",
+        help="compiled where llvmlite is installed (auto), always, or never; no part of any result",
+    )  # fmt: skip
     run.add_argument("--quiet", action="store_true", help="no progress")
 
     report = _add(subs, "report", commands.report)

@@ -46,7 +46,7 @@ def statuses(
     reason: list[str | None] = [None] * score.shape[1]
     left = (departed <= c.last) & (x.detection == NEVER)
     rest = np.array([bool(a or b) for a, b in zip(infeasible, errors, strict=True)], dtype=bool)
-    for i in np.flatnonzero(rest | left | (x.nonfinite > 0.0)):
+    for i in np.flatnonzero(rest | left | (x.nonfinite > 0.0)).tolist():
         if infeasible[i]:
             status[i], reason[i] = "infeasible", infeasible[i]
         elif errors[i]:
