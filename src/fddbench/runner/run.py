@@ -6,6 +6,9 @@ from collections.abc import Callable, Generator
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+import numpy.typing as npt
+
 from fddbench.campaign.meaning import Campaign
 from fddbench.results import manifest
 from fddbench.results.folder import claim, locked
@@ -104,31 +107,36 @@ def run_campaign(
     _tell(flyer, notice)
     with locked(folder):
         claim(folder, files=campaign.files(), provenance=_provenance(campaign), fresh=fresh)
-        done = manifest.shards(folder, intact=True)
-        manifest.keep(folder, done)
-        left = missing(plan.n_cases, [shard.cases for shard in done])
-        statuses = Counter[str]()
-        for shard in done:
-            statuses.update(shard.statuses)
-        told = _Told(before=plan.n_cases - len(left), total=plan.n_cases, statuses=statuses, progress=progress)
-        chunks = [
-            spans(part)
-            for part in cut(plan, left, size=chunk or (COMPILED_CHUNK if flyer.compiled else CHUNK), jobs=jobs)
-        ]
+        left, told = _left(folder, plan.n_cases, progress)
+        size = chunk or (COMPILED_CHUNK if flyer.compiled else CHUNK)
+        chunks = [spans(part) for part in cut(plan, left, size=size, jobs=jobs)]
         work = (str(folder), campaign.sha256, backend)
         threads = flyer.compiled and not flyer.opaque
-        if left.size and threads:
+        if len(left) and threads:
             flyer_of(*work)
         interrupted = _fly(folder, fly_all(work, chunks, jobs=jobs, threads=threads), told)
     return RunReport(
         folder=folder,
         flights=told.flown,
-        continued=plan.n_cases - len(left),
+        continued=told.before,
         total=plan.n_cases,
-        statuses=statuses,
+        statuses=told.statuses,
         interrupted=interrupted,
         wall_s=time.monotonic() - begun,
     )
+
+
+def _left(
+    folder: Path, n_cases: int, progress: Callable[[Progress], None] | None
+) -> tuple[npt.NDArray[np.int64], "_Told"]:
+    """Cases that are not there yet, and the count of those that are; shards that are damaged are struck off."""
+    done = manifest.shards(folder, intact=True)
+    manifest.keep(folder, done)
+    left = missing(n_cases, [shard.cases for shard in done])
+    statuses = Counter[str]()
+    for shard in done:
+        statuses.update(shard.statuses)
+    return left, _Told(before=n_cases - len(left), total=n_cases, statuses=statuses, progress=progress)
 
 
 @dataclass(kw_only=True)
