@@ -45,6 +45,14 @@ def parser() -> argparse.ArgumentParser:
     scores = _add(subs, "scores", commands.scores)
     scores.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
 
+    cost = _add(subs, "cost", commands.cost)
+    cost.add_argument("detector", metavar="DETECTOR", help="name of a design")
+    cost.add_argument(
+        "--campaign", type=Path, default=Path("smoke"), metavar="CAMPAIGN.yaml",
+        help="campaign whose benchmark and sample time count (default: the shipped smoke campaign)",
+    )  # fmt: skip
+    cost.set_defaults(overrides=[])
+
     check = _add(subs, "check", commands.check)
     _campaign(check)
 

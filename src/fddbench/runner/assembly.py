@@ -161,6 +161,22 @@ class Assembly:
         )
 
 
+def loop_of(planned: Plan) -> Loop:
+    """Closed loop of a campaign's benchmark with its options."""
+    campaign = planned.campaign
+    return planned.benchmark.loop(
+        Options(
+            plant=campaign.plant,
+            voter=campaign.voter,
+            sensors=campaign.sensors,
+            wind=campaign.wind,
+            sample_s=campaign.sample_s,
+            substeps=campaign.substeps,
+            fault_slots=max((len(scenario.faults) for scenario in planned.scenarios), default=0),
+        )
+    )
+
+
 def assemble(campaign: Campaign) -> Assembly:
     """Loop, detectors and scoring of a campaign.
 
@@ -170,18 +186,7 @@ def assemble(campaign: Campaign) -> Assembly:
         A design does not make a detector for this benchmark.
     """
     planned = plan(campaign)
-    slots = max((len(scenario.faults) for scenario in planned.scenarios), default=0)
-    loop = planned.benchmark.loop(
-        Options(
-            plant=campaign.plant,
-            voter=campaign.voter,
-            sensors=campaign.sensors,
-            wind=campaign.wind,
-            sample_s=campaign.sample_s,
-            substeps=campaign.substeps,
-            fault_slots=slots,
-        )
-    )
+    loop = loop_of(planned)
     n_events = max((len(s.faults) for s in planned.scenarios if has_events(s)), default=0)
     return Assembly(
         plan=planned,
