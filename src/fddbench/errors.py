@@ -16,7 +16,11 @@ __all__ = [
     "ResultsError",
     "UnknownNameError",
     "did_you_mean",
+    "reason_of",
 ]
+
+_LONGEST = 200
+"""Characters of a foreign message that are kept."""
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
@@ -27,6 +31,20 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
     """
     close = get_close_matches(name, list(known), n=1)
     return f"Did you mean {close[0]!r}?" if close else ""
+
+
+def reason_of(error: BaseException) -> str:
+    r"""What an exception of foreign code says: its kind and text in one line of at most 200 characters; never raises.
+
+    >>> reason_of(ValueError("two\nlines"))
+    'ValueError: two lines'
+    """
+    try:
+        text = " ".join(str(error).encode("utf-8", "backslashreplace").decode().split())
+    except Exception:
+        text = "(its text cannot be made)"
+    whole = f"{type(error).__name__}: {text}" if text else type(error).__name__
+    return whole if len(whole) <= _LONGEST else whole[: _LONGEST - 3] + "..."
 
 
 class FddbenchError(Exception):

@@ -8,6 +8,7 @@ import pytest
 from pydantic import BaseModel, ConfigDict, Field
 
 from fddbench import gallery, registry
+from fddbench.blocks.layout import Layout
 from fddbench.errors import DesignError, FddbenchError
 from fddbench.interfaces import Bus, Parameter
 
@@ -56,6 +57,15 @@ class Watcher:
         if gains.confirmation_s < bus.sample_s:
             raise DesignError(f"confirmation_s = {gains.confirmation_s} is shorter than a sample of {bus.sample_s} s")
         return cls(gains, bus)
+
+    states = Layout(held=0)
+    recorded = ()
+
+    def start(self, n_cases):
+        return self.states.zeros(n_cases)
+
+    def step(self, state, measured):
+        raise NotImplementedError
 
 
 @pytest.fixture(autouse=True)

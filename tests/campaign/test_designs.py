@@ -7,6 +7,7 @@ from fddbench.interfaces import Bus
 
 BUS = Bus(sample_s=0.01, sites=("r1", "r2", "r3"), signals={})
 PLUGIN = """
+from fddbench.blocks.layout import Layout
 from pydantic import BaseModel
 class Mine:
     class Gains(BaseModel):
@@ -16,6 +17,14 @@ class Mine:
     @classmethod
     def from_design(cls, gains, bus):
         return cls(gains.level)
+
+    states, recorded = Layout(held=0), ()
+
+    def start(self, n_cases):
+        return self.states.zeros(n_cases)
+
+    def step(self, state, measured):
+        raise NotImplementedError
 """
 USES_PLUGIN = "kind: plugin.py:Mine\nsource: me\ntuned_on: null\ngains: {level: 3}\n"
 

@@ -70,7 +70,9 @@ class Design:
 def _folders(campaign_folder: Path) -> list[Path]:
     beside = [campaign_folder / "detectors", campaign_folder / ".." / "detectors"]
     try:
-        return [*beside, gallery.folder("detectors")]
+        # one's own detectors on a shipped campaign lie where one works
+        here = [Path("detectors")] if campaign_folder.resolve() == gallery.folder("campaigns").resolve() else []
+        return [*here, *beside, gallery.folder("detectors")]
     except FddbenchError:
         return beside
 
@@ -97,7 +99,7 @@ def find_design(name: str, campaign_folder: Path) -> Path:
         f"no design is called {name!r}.",
         did_you_mean(name, known),
         f"Known: {', '.join(known) or 'none'}.",
-        f"Designs are files: put yours at {campaign_folder / 'detectors' / name}.yaml",
+        f"Designs are files: put yours at {_folders(campaign_folder)[0] / name}.yaml",
     ]
     raise FddbenchError(" ".join(filter(None, parts)))
 
@@ -124,7 +126,13 @@ def read_design(path: Path, *, where: str = "") -> Design:
     except FddbenchError as error:
         mistakes.append(document.mistake(("kind",), str(error)))
     gains: BaseModel | None = None
-    if kind is not None and isinstance(document.get("gains"), dict):
+    if kind is not None and not (
+        isinstance(model := getattr(kind, "Gains", None), type) and issubclass(model, BaseModel)
+    ):
+        mistakes.append(
+            document.mistake(("kind",), f"{document.get('kind')} needs a class Gains, a pydantic BaseModel")
+        )
+    elif kind is not None and isinstance(document.get("gains"), dict):
         try:
             gains = kind.Gains.model_validate_json(json.dumps(document.get("gains")), strict=True)
         except ValidationError as error:

@@ -122,7 +122,26 @@ def _designs(document: Document, folder: Path) -> tuple[tuple[Design, ...], list
             mistakes += error.mistakes
         except FddbenchError as error:
             mistakes.append(Mistake(where, str(error)))
-    return tuple(found), mistakes
+    return tuple(found), mistakes + _namesakes(found)
+
+
+def _namesakes(designs: Sequence[Design]) -> list[Mistake]:
+    """Different plug-in files of one name: only one of them could be kept beside the results."""
+    first: dict[str, Design] = {}
+    mistakes = []
+    for design in designs:
+        if design.plugin is None:
+            continue
+        other = first.setdefault(design.plugin.file, design)
+        if other.plugin != design.plugin:
+            mistakes.append(
+                Mistake(
+                    design.where,
+                    f"the plug-ins of {other.name!r} and {design.name!r} are different files of the same name "
+                    f"{design.plugin.file}; rename one",
+                )
+            )
+    return mistakes
 
 
 def _tuned_on_these_flights(written: CampaignFile, designs: Sequence[Design]) -> list[Mistake]:

@@ -6,7 +6,8 @@ from pathlib import Path
 from fddbench.campaign.designs import Design
 from fddbench.campaign.document import refuse
 from fddbench.campaign.model import Dispersions, Purpose
-from fddbench.errors import DesignError, Mistake
+from fddbench.campaign.soundness import unsound
+from fddbench.errors import DesignError, Mistake, reason_of
 from fddbench.faults.specification import FaultSpecification
 from fddbench.interfaces import Bus, Detector
 
@@ -102,6 +103,12 @@ def build_detectors(campaign: Campaign, bus: Bus) -> dict[str, Detector]:
         try:
             found[design.name] = design.build(bus)
         except DesignError as error:
-            mistakes.append(Mistake(design.where, f"design {design.name!r} ({design.path}): {error}"))
+            wrong = str(error)
+        except (Exception, SystemExit) as error:  # a plug-in may raise anything
+            wrong = f"from_design raised {reason_of(error)}"
+        else:
+            wrong = unsound(found[design.name], bus)
+        if wrong:
+            mistakes.append(Mistake(design.where, f"design {design.name!r} ({design.path}): {wrong}"))
     refuse(mistakes)
     return found

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from fddbench.campaign.canonical import text_sha256
-from fddbench.errors import FddbenchError
+from fddbench.errors import FddbenchError, reason_of
 
 __all__ = ["Plugin", "is_plugin", "load_plugin"]
 
@@ -73,9 +73,9 @@ def _module(path: Path, plugin: Plugin) -> Any:
     sys.modules[name] = module
     try:
         spec.loader.exec_module(module)
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         del sys.modules[name]
         lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
         place = f"{path}:{lines[-1]}" if lines else str(path)
-        raise FddbenchError(f"{place} does not run: {type(error).__name__}: {error}") from error
+        raise FddbenchError(f"{place} does not run: {reason_of(error)}") from error
     return module

@@ -4,6 +4,7 @@ import argparse
 import os
 import sys
 from collections.abc import Callable
+from io import TextIOWrapper
 from pathlib import Path
 
 from fddbench import __version__
@@ -92,6 +93,9 @@ def _jobs(text: str) -> int:
 def main(argv: list[str] | None = None) -> int:
     """Run one command and return its exit code."""
     args = parser().parse_args(argv)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")  # a file's name may hold what a terminal cannot print
     try:
         code: int = args.command(args)
         sys.stdout.flush()
@@ -103,6 +107,10 @@ def main(argv: list[str] | None = None) -> int:
         # the reader of a pipe (head, less) has gone: that is no mistake; keep Python from flushing once more
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
+    except OSError as error:
+        place = f"{error.filename}: " if error.filename else ""
+        print(f"fddbench: {place}{error.strerror or error}; what is finished is kept, run again", file=sys.stderr)
+        return 2
     except KeyboardInterrupt:
         print("fddbench: interrupted", file=sys.stderr)
         return 130

@@ -8,7 +8,6 @@ import numpy as np
 import pandas as pd
 import yaml
 
-from fddbench.campaign.load import read_campaign
 from fddbench.reporting.page import ReportData
 from fddbench.reporting.published import published_for
 from fddbench.results.folder import provenance_of
@@ -16,6 +15,7 @@ from fddbench.results.table import load, load_events
 from fddbench.runner.assembly import assemble
 from fddbench.runner.load import detector_load, in_words
 from fddbench.runner.replay import replay, sampled_cases
+from fddbench.runner.work import frozen
 
 __all__ = ["report_data"]
 
@@ -45,7 +45,7 @@ def report_data(folder: Path) -> ReportData:
         No folder of results, or one that is damaged.
     """
     provenance, rows = provenance_of(folder), load(folder)
-    campaign = read_campaign(folder / "campaign.yaml")
+    campaign = frozen(folder, provenance["campaign_sha256"])
     content: dict[str, Any] = {name: getattr(campaign, name) for name in _SETTINGS} | yaml.safe_load(campaign.text)
     assembly = assemble(campaign)
     loads = {

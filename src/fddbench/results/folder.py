@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -11,9 +12,13 @@ from pathlib import Path
 from fddbench.errors import ResultsError
 from fddbench.results.shards import write_bytes
 
-__all__ = ["claim", "locked", "provenance_of"]
+__all__ = ["claim", "locked", "provenance_of", "refuse_foreign"]
 
-_OURS = ("campaign.yaml", "detectors", "manifest.jsonl", "provenance.json", "rows", "events")
+_PROVENANCE = "provenance.json"
+_WRITTEN = ("campaign.yaml", "detectors", "manifest.jsonl", _PROVENANCE, "rows", "events", "report.html")
+_OURS = (*_WRITTEN, ".lock", ".pid")
+_LEFT = re.compile(r"\..+\.[0-9]+\.tmp")
+"""What a crash in the middle of a write leaves behind."""
 
 
 def claim(folder: Path, *, files: Mapping[str, str], provenance: Mapping[str, object], fresh: bool) -> bool:
@@ -35,21 +40,52 @@ def claim(folder: Path, *, files: Mapping[str, str], provenance: Mapping[str, ob
     ResultsError
         The folder holds another campaign's results (the difference is shown) or files that are not fddbench's.
     """
-    if fresh:
-        _clear(folder)
-    if folder.is_dir() and (folder / "provenance.json").is_file():
-        before = provenance_of(folder)
-        if before.get("campaign_sha256") == provenance["campaign_sha256"]:
-            return True
-        raise ResultsError(_difference(folder, files))
-    if folder.exists() and (
-        not folder.is_dir() or any(p.name not in (*_OURS, ".lock", ".pid") for p in folder.iterdir())
-    ):
-        raise ResultsError(f"{folder} exists and is no folder of results; name another with --out")
-    for name, text in files.items():
-        write_bytes(folder / name, text.encode())
-    write_bytes(folder / "provenance.json", json.dumps(provenance, indent=2).encode())
+    if folder.is_dir() and (folder / _PROVENANCE).is_file() and not fresh:
+        if _campaign_of(folder) != provenance["campaign_sha256"]:
+            raise ResultsError(_difference(folder, files))
+        _put_back(folder, files)
+        return True
+    refuse_foreign(folder)
+    _clear(folder)
+    _put_back(folder, files)
+    write_bytes(folder / _PROVENANCE, json.dumps(provenance, indent=2).encode())
     return False
+
+
+def refuse_foreign(folder: Path) -> None:
+    """Do nothing to a folder that is missing, empty or of results.
+
+    Raises
+    ------
+    ResultsError
+        It is a file, or holds files that fddbench did not write.
+    """
+    if folder.is_dir():
+        names = sorted(path.name for path in folder.iterdir())
+        foreign = [name for name in names if name not in _OURS and not _LEFT.fullmatch(name)]
+        if foreign:
+            more = ", ..." if len(foreign) > 3 else ""
+            raise ResultsError(
+                f"{folder} is no folder of results: it holds {', '.join(foreign[:3])}{more}; name another with --out"
+            )
+    elif folder.exists():
+        raise ResultsError(f"{folder} is a file, no folder of results; name another with --out")
+
+
+def _put_back(folder: Path, files: Mapping[str, str]) -> None:
+    """Write the frozen files that are missing or not as they were."""
+    for name, text in files.items():
+        path = folder / name
+        if not path.is_file() or path.read_bytes() != text.encode():
+            write_bytes(path, text.encode())
+
+
+def _campaign_of(folder: Path) -> object:
+    """Fingerprint of the campaign a folder belongs to; None when it cannot be read."""
+    try:
+        return provenance_of(folder)["campaign_sha256"]
+    except ResultsError:
+        return None
 
 
 def provenance_of(folder: Path) -> dict[str, object]:
@@ -60,15 +96,17 @@ def provenance_of(folder: Path) -> dict[str, object]:
     ResultsError
         The folder is missing or is not one of results.
     """
-    path = folder / "provenance.json"
+    path = folder / _PROVENANCE
     if not path.is_file():
         raise ResultsError(
             f"{folder} is no folder of results: it has no provenance.json; name one that `fddbench run` wrote"
         )
     try:
-        found: dict[str, object] = json.loads(path.read_text(encoding="utf-8"))
+        found = json.loads(path.read_text(encoding="utf-8"))
     except ValueError as error:
         raise ResultsError(f"{path} cannot be read ({error}); run the campaign again with --fresh") from error
+    if not isinstance(found, dict) or not {"campaign_sha256", "designs_sha256"} <= found.keys():
+        raise ResultsError(f"{path} is no provenance of fddbench; run the campaign again with --fresh")
     return found
 
 
@@ -83,6 +121,7 @@ def locked(folder: Path) -> Iterator[None]:
     """
     from filelock import FileLock, Timeout
 
+    refuse_foreign(folder)
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -103,27 +142,28 @@ def locked(folder: Path) -> Iterator[None]:
 
 
 def _clear(folder: Path) -> None:
-    """Remove what fddbench writes, and nothing else."""
-    if (folder / "provenance.json").is_file():
-        for name in _OURS:
-            path = folder / name
-            if path.is_dir():
-                shutil.rmtree(path)
-            else:
-                path.unlink(missing_ok=True)
+    """Remove what fddbench writes, and nothing else; a link is removed, not what it points to."""
+    for name in _WRITTEN:
+        path = folder / name
+        if path.is_dir() and not path.is_symlink():
+            shutil.rmtree(path)
+        else:
+            path.unlink(missing_ok=True)
 
 
 def _difference(folder: Path, files: Mapping[str, str]) -> str:
     """What differs between the folder's campaign and this one, as a short diff."""
     lines: list[str] = []
-    for name, text in sorted(files.items()):
+    for name, text in sorted(files.items(), key=lambda item: item[0] != "campaign.yaml"):
         before = (folder / name).read_text(encoding="utf-8").splitlines() if (folder / name).is_file() else []
         lines += [
             line
             for line in unified_diff(before, text.splitlines(), "there", "here", n=0, lineterm="")
             if line[:3] != "@@ "
         ]
-    shown = "\n".join(f"  {line}" for line in lines[:20]) or "  (another version of a design or plug-in)"
+        if lines:
+            break
+    shown = "\n".join(f"  {line}" for line in lines[:12]) or "  (another version of a design or plug-in)"
     return (
         f"{folder} holds results of another campaign:\n{shown}\n"
         "Name another folder with --out, or replace the results with --fresh."

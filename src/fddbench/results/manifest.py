@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -11,6 +12,7 @@ from fddbench.results.shards import file_sha256, write_bytes
 __all__ = ["Shard", "append", "keep", "shards"]
 
 _NAME = "manifest.jsonl"
+_FILE = re.compile(r"(rows|events)/[0-9-]+\.parquet")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,17 +63,27 @@ def shards(folder: Path, *, intact: bool = False) -> tuple[Shard, ...]:
         Only shards whose files are there with the right fingerprint.
     """
     path = folder / _NAME
-    lines = path.read_text(encoding="utf-8").split("\n") if path.is_file() else []
-    found = [shard for shard in map(_shard, lines) if shard is not None]
-    return tuple(shard for shard in found if not intact or _intact(folder, shard))
+    lines = path.read_bytes().split(b"\n") if path.is_file() else []
+    found: list[Shard] = []
+    taken: set[int] = set()
+    for shard in map(_shard, lines):
+        if shard is not None and (not intact or _intact(folder, shard)):
+            cases = {case for first, count in shard.cases for case in range(first, first + count)}
+            if not cases & taken:
+                found.append(shard)
+                taken |= cases
+    return tuple(found)
 
 
-def _shard(line: str) -> Shard | None:
+def _shard(line: bytes) -> Shard | None:
+    """Shard of a line, None for one that is damaged or names files elsewhere."""
     try:
         entry = json.loads(line)
         entry["cases"] = tuple((int(first), int(count)) for first, count in entry["cases"])
-        return Shard(**entry)
-    except (ValueError, TypeError, KeyError):
+        shard = Shard(**entry)
+        names = (shard.rows, *([shard.events] if shard.events is not None else []))
+        return shard if all(_FILE.fullmatch(name) for name in names) else None
+    except (ValueError, TypeError, KeyError, AttributeError):
         return None
 
 

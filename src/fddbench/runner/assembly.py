@@ -94,6 +94,7 @@ class Assembly:
         """Constants and states of cases, a pure function of campaign, seed and case number."""
         scenario, run = self.plan.locate(cases)
         parameters = self.plan.parameters(cases)
+        outside = self._outside(parameters)
         streams = np.array([planned.stream for planned in self.plan.scenarios], dtype=np.int64)[scenario]
         start = self.loop.start(
             Flights(
@@ -112,8 +113,17 @@ class Assembly:
             constants=start.constants,
             score_constants=self._per_scenario(self._score_rows, scenario, run),
             scenario_stream=streams,
-            infeasible_reason=start.infeasible_reason,
+            infeasible_reason=tuple(a or b for a, b in zip(outside, start.infeasible_reason, strict=True)),
         )
+
+    def _outside(self, parameters: Mapping[str, Floats]) -> list[str]:
+        """Why a case cannot be flown: a normal distribution has drawn a value that the benchmark does not have."""
+        reasons = [""] * len(next(iter(parameters.values()), ()))
+        for limit in self.plan.benchmark.parameters:
+            drawn = parameters[limit.name]
+            for i in np.flatnonzero((drawn < limit.low) | (drawn > limit.high)).tolist():
+                reasons[i] = f"drawn {limit.name} {drawn[i]:g} lies outside {limit.low:g} to {limit.high:g}"
+        return reasons
 
     def normals(self, batch: Batch, first: int, count: int) -> Floats:
         """Normals of samples ``first ... first + count - 1``, (count, n_normals, n_cases)."""
@@ -172,7 +182,7 @@ def loop_of(planned: Plan) -> Loop:
             wind=campaign.wind,
             sample_s=campaign.sample_s,
             substeps=campaign.substeps,
-            fault_slots=max((len(scenario.faults) for scenario in planned.scenarios), default=0),
+            fault_slots=max([1, *(len(scenario.faults) for scenario in planned.scenarios)]),
         )
     )
 

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from fddbench.blocks.linear import total
+from fddbench.errors import DesignError, reason_of
 from fddbench.interfaces import Floats, Verdict
 from fddbench.metrics.scoring import NEVER
 from fddbench.runner.assembly import Assembly, Batch
@@ -20,8 +21,8 @@ _TILE = 50
 class DetectorFlight:
     """One detector on one batch, fed with measured signals sample by sample.
 
-    A step that raises ends the detector's flight here; `finish` then flies it again case by case, so that a case's row does
-    not depend on its company.
+    A step that raises ends the detector's flight here; `finish` then flies it again in ever smaller company, so that a
+    case's row does not depend on it.
 
     Parameters
     ----------
@@ -42,8 +43,8 @@ class DetectorFlight:
         self.kept: dict[str, list[Floats]] = {full: [] for full in recorded if full.startswith(f"{name}:")}
         try:
             self.state = assembly.detectors[name].start(len(batch.cases))
-        except Exception as error:  # a user's detector may raise anything; it becomes a row
-            self.raised = f"{type(error).__name__}: {error}"
+        except (Exception, SystemExit) as error:  # a user's detector may raise anything; it becomes a row
+            self.raised = reason_of(error)
 
     def step(self, measured: SimpleNamespace, sample: float, departed: Floats) -> None:
         """Verdict on one sample, scored."""
@@ -52,27 +53,29 @@ class DetectorFlight:
         n_cases = len(self.batch.cases)
         try:
             detector = self.assembly.detectors[self.name]
-            after, verdict = detector.step(self.state, measured)
+            after, verdict = detector.step(self.state, SimpleNamespace(**vars(measured)))
+            if np.shape(after) != (detector.states.size, n_cases):
+                raise DesignError(f"a step gives a state of {(detector.states.size, n_cases)}, got {np.shape(after)}")
             checked(verdict, detector, len(self.assembly.loop.bus.sites), n_cases)
             self.score = self.assembly.scoring.step(
                 self.score, verdict, self.batch.score_constants, sample, sample < departed
             )
             self.state = after
-        except Exception as error:  # a user's detector may raise anything; it becomes a row
-            self.raised = f"{type(error).__name__}: {error}"
-            return
-        for full, rows in self.kept.items():
-            rows.append(np.broadcast_to(np.asarray(_shown(verdict, full.split(":", 1)[1]), dtype=float), (n_cases,)))
+            for full, rows in self.kept.items():
+                shown = np.asarray(_shown(verdict, full.split(":", 1)[1]), dtype=float)
+                rows.append(np.broadcast_to(shown, (n_cases,)))
+        except (Exception, SystemExit) as error:  # a user's detector may raise anything; it becomes a row
+            self.raised = reason_of(error)
 
     def finish(self) -> tuple[Floats, list[str]]:
         """Final score and what was raised, case by case."""
         n_cases = len(self.batch.cases)
         if not self.raised or n_cases == 1:
             return self.score, [self.raised] * n_cases
-        alone = [
-            _fly(self.assembly, self.batch.take(np.array([i])), [self.name], ())[2][0].finish() for i in range(n_cases)
-        ]
-        return np.concatenate([score for score, _ in alone], axis=1), [errors[0] for _, errors in alone]
+        # halves, so that the sound cases of a large batch still fly side by side
+        halves = np.array_split(np.arange(n_cases), 2)
+        parts = [_fly(self.assembly, self.batch.take(half), [self.name], ())[2][0].finish() for half in halves]
+        return np.concatenate([score for score, _ in parts], axis=1), [text for _, texts in parts for text in texts]
 
     def tape(self, n_time: int) -> dict[str, Floats]:
         """What was kept, (n_time, 1, n_cases) each; not-a-number from where the detector raised on."""
@@ -130,6 +133,8 @@ def _fly(
                 for flight in flights:
                     flight.step(measured, sample, departed)
                 _keep(kept, measured, truth, departed)
+                if flights and not recorded and all(flight.raised for flight in flights):
+                    return departed, {}, flights
     return departed, {full: np.array(rows) for full, rows in kept.items()}, flights
 
 

@@ -1,6 +1,7 @@
 """Everything that can be traced, in one step: loop, detectors and their scores, ready for a kernel."""
 
 from collections.abc import Mapping
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -8,7 +9,7 @@ import numpy as np
 from fddbench.blocks.layout import Layout, Rows
 from fddbench.blocks.linear import total
 from fddbench.blocks.program import Program, trace
-from fddbench.errors import DesignError
+from fddbench.errors import DesignError, FddbenchError, reason_of
 from fddbench.interfaces import Bus, Detector, Floats, Verdict
 from fddbench.metrics.scoring import NEVER
 from fddbench.runner.assembly import Assembly, Batch
@@ -46,10 +47,12 @@ def detector_program(detector: Detector, bus: Bus) -> Program:
     Exception
         Whatever its step raises on traced values.
     """
-    from types import SimpleNamespace
 
     def step(state: Rows, **signals: Rows) -> Mapping[str, Rows]:
+        before = {name: value.ids.copy() for name, value in signals.items()}
         after, verdict = detector.step(state, SimpleNamespace(**signals))
+        if any((signals[name].ids != ids).any() for name, ids in before.items()):
+            raise DesignError("its step writes into measured signals, which are everybody's; copy them first")
         checked(verdict, detector, len(bus.sites), 1)
         return {"state": after, "declared": verdict.declared, "ratio": verdict.ratio, **verdict.signals}
 
@@ -69,8 +72,10 @@ def why_opaque(detector: Detector, bus: Bus) -> str:
     try:
         if detector_program(detector, bus).hash != detector_program(detector, bus).hash:
             return "its step keeps something between two calls"
-    except Exception as error:  # a user's step may raise anything on values that are not arrays
-        return " ".join(str(error).split()) or type(error).__name__
+    except FddbenchError as error:
+        return " ".join(str(error).split())
+    except (Exception, SystemExit) as error:  # a user's step may raise anything on values that are not arrays
+        return reason_of(error)
     return ""
 
 
@@ -121,7 +126,7 @@ class Fused:
         outputs |= {f"truth:{name}": value for name, value in truth.items()}
         for i, name in enumerate(self.detectors):
             detector_state = getattr(x, f"detector_{i}", state[:0])
-            stepped, verdict = self.assembly.detectors[name].step(detector_state, measured)
+            stepped, verdict = self.assembly.detectors[name].step(detector_state, SimpleNamespace(**vars(measured)))
             values[f"detector_{i}"] = stepped
             values[f"score_{i}"] = self.assembly.scoring.step(
                 getattr(x, f"score_{i}"), verdict, c.score, sample, sample < departed

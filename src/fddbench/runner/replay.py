@@ -9,11 +9,12 @@ import numpy.typing as npt
 import pandas as pd
 
 from fddbench.blocks.philox import philox4x32
-from fddbench.campaign.load import read_campaign
 from fddbench.campaign.plan import PlannedScenario
 from fddbench.interfaces import Floats, Recording
+from fddbench.results.folder import provenance_of
 from fddbench.runner.assembly import Assembly, Batch, assemble
 from fddbench.runner.flight import Flyer
+from fddbench.runner.work import frozen
 
 __all__ = ["MOST_CASES", "replay", "sampled_cases"]
 
@@ -64,7 +65,7 @@ def replay(
     signals : collection of str, optional
         Measured and true signals to keep; all by default. What the detectors show is always kept.
     """
-    flyer = Flyer(assemble(read_campaign(folder / "campaign.yaml")))
+    flyer = Flyer(assemble(frozen(folder, provenance_of(folder)["campaign_sha256"])))
     for planned in flyer.assembly.plan.scenarios:
         chosen = (cases or {}).get(planned.name, np.arange(planned.first_case, planned.first_case + planned.n_runs))
         batch = flyer.assembly.batch(np.asarray(chosen, dtype=np.int64))

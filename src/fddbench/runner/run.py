@@ -130,7 +130,8 @@ def _left(
     folder: Path, n_cases: int, progress: Callable[[Progress], None] | None
 ) -> tuple[npt.NDArray[np.int64], "_Told"]:
     """Cases that are not there yet, and the count of those that are; shards that are damaged are struck off."""
-    done = manifest.shards(folder, intact=True)
+    listed = manifest.shards(folder, intact=True)
+    done = [shard for shard in listed if all(0 <= first < first + count <= n_cases for first, count in shard.cases)]
     manifest.keep(folder, done)
     left = missing(n_cases, [shard.cases for shard in done])
     statuses = Counter[str]()

@@ -11,6 +11,8 @@ import numpy.typing as npt
 import pyarrow as pa
 
 from fddbench.campaign.load import read_campaign
+from fddbench.campaign.meaning import Campaign
+from fddbench.errors import FddbenchError, ResultsError
 from fddbench.metrics.rows import Truth, event_columns, score_columns, statuses
 from fddbench.metrics.scoring import NEVER
 from fddbench.results.manifest import Shard
@@ -20,7 +22,7 @@ from fddbench.runner.assembly import Assembly, Batch, assemble, has_events
 from fddbench.runner.chunks import Spans, expand, spans
 from fddbench.runner.flight import Flyer, Outcome
 
-__all__ = ["fly_and_write", "flyer_of", "rows_and_events"]
+__all__ = ["fly_and_write", "flyer_of", "frozen", "rows_and_events"]
 
 Columns = dict[str, list[Any]]
 Cases = npt.NDArray[np.int64]
@@ -34,10 +36,29 @@ def flyer_of(folder: str, campaign_sha256: str, backend: str) -> Flyer:
         return _flyer(folder, campaign_sha256, backend)
 
 
+def frozen(folder: Path, campaign_sha256: object) -> Campaign:
+    """Campaign of a folder of results, once it is the one that the results are of.
+
+    Raises
+    ------
+    ResultsError
+        The frozen campaign, a design or a plug-in was changed or is gone.
+    """
+    try:
+        campaign = read_campaign(folder / "campaign.yaml")
+    except FddbenchError as error:
+        raise ResultsError(f"the campaign frozen in {folder} cannot be read any more:\n{error}\n{_REMEDY}") from error
+    if campaign.sha256 != campaign_sha256:
+        raise ResultsError(f"the campaign or a design frozen in {folder} is not the one of its results. {_REMEDY}")
+    return campaign
+
+
+_REMEDY = "Run the campaign again on this folder: it puts the files back."
+
+
 @lru_cache(maxsize=2)
 def _flyer(folder: str, campaign_sha256: str, backend: str) -> Flyer:
-    del campaign_sha256  # part of the key: a folder may be replaced under a living worker
-    flyer = Flyer(assemble(read_campaign(Path(folder) / "campaign.yaml")), backend)
+    flyer = Flyer(assemble(frozen(Path(folder), campaign_sha256)), backend)
     flyer.prepare()
     return flyer
 
