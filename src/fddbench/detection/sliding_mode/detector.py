@@ -24,6 +24,8 @@ _NEEDS = (
     "phi_deg", "beta_deg", "p_deg_s", "r_deg_s", "r_voted_deg_s", "surface_deg", "v_tas_m_s",
     "mass_kg", "x_cg_ratio", "altitude_ft", "v_cas_kt",
 )  # fmt: skip
+_SAMPLE_S = (0.002, 0.1)
+"""Sample times at which the numbers of the energy monitor (tuned for 10 ms) mean something."""
 
 
 class SlidingMode:
@@ -70,6 +72,11 @@ class SlidingMode:
         missing = [name for name in _NEEDS if name not in bus.signals]
         if missing:
             raise DesignError(f"sliding_mode needs the signals {missing}, this benchmark has {sorted(bus.signals)}")
+        if not _SAMPLE_S[0] <= bus.sample_s <= _SAMPLE_S[1]:
+            raise DesignError(
+                f"sample_s = {bus.sample_s} is outside {_SAMPLE_S[0]} to {_SAMPLE_S[1]}: the energy monitor counts samples of "
+                "numerical derivatives, which drown in noise when the samples are short; choose another sample_s"
+            )
         if gains.energy_count > gains.energy_window_samples:
             raise DesignError(
                 f"energy_count = {gains.energy_count} can never be reached in a window of "
