@@ -170,7 +170,7 @@ def assemble(campaign: Campaign) -> Assembly:
         A design does not make a detector for this benchmark.
     """
     planned = plan(campaign)
-    slots = max((len(scenario.faults) for scenario in planned.scenarios), default=0)
+    slots = max(1, *(len(scenario.faults) for scenario in planned.scenarios))  # a layout has no field of no rows
     loop = planned.benchmark.loop(
         Options(
             plant=campaign.plant,
