@@ -88,3 +88,21 @@ def test_another_step_or_processor_is_another_entry(own: Path) -> None:
     assert len(list(own.iterdir())) == 2
     assert len({cache.key("ir", "22", cpu) for cpu in ("znver5", "haswell")}) == 2
     assert cache.key("a", "b") != cache.key("ab", "")
+
+
+def test_everything_the_machine_code_depends_on_is_in_its_name(own: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("llvmlite")
+    program = trace(lambda state, normals: {"state": state + normals[:1], "y": state}, state=1, normals=4)
+    for how in (
+        {"consumers": (1,)},
+        {"consumers": (2,)},
+        {"fault_consumers": (1,)},
+        {"consumers": (1,), "recorded": ("y",)},
+        {"consumers": (1,), "lanes": 1},
+        {"consumers": (1,), "target": "x86-64", "lanes": 4},
+    ):
+        build(program, backend="llvm", **how)
+    assert len(list(own.iterdir())) == 6
+    monkeypatch.setattr(cache, "source", lambda: "another version of this package")
+    build(program, backend="llvm", consumers=(1,))
+    assert len(list(own.iterdir())) == 7

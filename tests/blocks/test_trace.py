@@ -161,6 +161,18 @@ def test_matrix_products_are_summed_left_to_right(same: Any) -> None:
     assert same(found, product(column(matrix), x))
 
 
+def test_what_is_fixed_may_be_used_by_the_run_before_it_is_used_by_the_fixed_part(same: Any) -> None:
+    def step(c: Any, x: Any) -> dict[str, Any]:
+        twice = c * 2.0
+        early = x + twice
+        return {"y": early * (twice * 3.0)}
+
+    fixed, c, x = Interpreter(trace(step, c=1, x=1), fixed=("c",)), np.array([[0.5, 2.0]]), np.array([[3.0, 4.0]])
+    fixed.fix(c=c)
+    assert same(fixed.run(x=x)["y"], step(c, x)["y"])
+    assert same(fixed.run(x=x)["y"], step(c, x)["y"])
+
+
 def test_inputs_that_are_fixed_are_computed_once(same: Any) -> None:
     program = trace(lambda c, x: {"y": functions.exp(c) * x}, c=1, x=1)
     fixed, c, x = Interpreter(program, fixed=("c",)), np.array([[0.5, 2.0]]), np.array([[3.0, 4.0]])

@@ -190,7 +190,7 @@ def test_three_opposite_sites_alternate():
     [
         "identical",
         "independent",
-        pytest.param("opposite", marks=pytest.mark.xfail(reason="FaultStep.rows draws a phase per site here")),
+        "opposite",
     ],
 )
 def test_a_drawn_phase_is_uniform_number_times_a_turn(correlation):

@@ -134,6 +134,6 @@ def test_one_of_takes_a_zero_for_a_value():
                                               ({"hold_value_percent": 5.0}, 2.0)])  # fmt: skip
 def test_replace_drops_the_healthy_signal(hold, offset):
     wave = Nrz(kind="nrz", **WHERE, mode="replace", amplitude_deg_s=1.0, **hold).wave(UNITS)
-    assert (wave.keep, wave.hold, wave.offset) == (0.0, 0.0, offset)
+    assert (wave.keep, wave.hold, wave.hold_value, wave.offset) == (0.0, 0.0, offset, 0.0)
     wave = Nrz(kind="nrz", **WHERE, mode="replace", amplitude_deg_s=1.0, freeze=True).wave(UNITS)
     assert (wave.keep, wave.hold, wave.offset) == (0.0, 1.0, 0.0)

@@ -274,7 +274,6 @@ def test_a_case_alone_scores_as_in_company(many):
     assert together.tobytes() == alone.tobytes()
 
 
-@pytest.mark.xfail(reason="total() of booleans is a logical or, so two declared sites count as one")
 def test_a_plug_in_may_declare_with_booleans():
     scoring = Scoring(3, 0)
     constants = scoring.rows(k0=0.0, n_faulty=1, last=5.0, events=[], n_cases=1)

@@ -7,16 +7,15 @@ from tests.runner.conftest import TEXT, write
 from fddbench.campaign.load import read_campaign
 from fddbench.interfaces import Verdict
 from fddbench.runner.assembly import Assembly, assemble
+from fddbench.runner.flight import Flyer
 from fddbench.runner.work import rows_and_events
 
 
 class Faulty:
     """Wraps a detector and does something wrong with it."""
 
-    recorded = ()
-
     def __init__(self, inner, wrong):
-        self.inner, self.wrong, self.states = inner, wrong, inner.states
+        self.inner, self.wrong, self.states, self.recorded = inner, wrong, inner.states, inner.recorded
 
     def start(self, n_cases):
         return self.inner.start(n_cases)
@@ -33,26 +32,31 @@ def _raise_for_heavy(verdict, measured):
 
 
 def _nan(verdict, measured):
-    return Verdict(verdict.declared, np.where(measured.mass_kg > 200e3, np.nan, verdict.ratio))
+    return Verdict(verdict.declared, np.where(measured.mass_kg > 200e3, np.nan, verdict.ratio), verdict.signals)
 
 
-def _flown(assembly, wrong):
+def _flown_by(flyer):
+    rows, events = rows_and_events(flyer, np.arange(flyer.assembly.plan.n_cases))
+    return rows.to_pylist(), events.to_pylist()
+
+
+def _flown(assembly, wrong, backend):
     detectors = {**assembly.detectors, "wrong": Faulty(assembly.detectors["voting_monitor"], wrong)}
     broken = Assembly(plan=assembly.plan, loop=assembly.loop, detectors=detectors, scoring=assembly.scoring)
-    rows, events = rows_and_events(broken, np.arange(assembly.plan.n_cases))
-    return rows, events
+    return _flown_by(Flyer(broken, backend))
 
 
 @pytest.fixture(scope="module")
 def sound(assembly):
-    return rows_and_events(assembly, np.arange(assembly.plan.n_cases))[0]
+    return _flown_by(Flyer(assembly))[0]
 
 
+@pytest.mark.parametrize("backend", ["auto", "numpy"])
 @pytest.mark.parametrize(
     ("wrong", "status", "reason"), [(_raise_for_heavy, "error", "ValueError: too heavy"), (_nan, "nonfinite", "finite")]
 )
-def test_a_wrong_detector_is_a_status_of_its_own_rows_only(assembly, sound, wrong, status, reason):
-    rows, events = _flown(assembly, wrong)
+def test_a_wrong_detector_is_a_status_of_its_own_rows_only(assembly, sound, wrong, status, reason, backend):
+    rows, events = _flown(assembly, wrong, backend)
     mine = [row for row in rows if row["detector"] == "wrong"]
     heavy = [row["p_mass_kg"] * (1 + row["p_mass_error_percent"] / 100) > 200e3 for row in mine]
     for row, is_heavy in zip(mine, heavy, strict=True):
@@ -69,12 +73,13 @@ def test_a_wrong_detector_is_a_status_of_its_own_rows_only(assembly, sound, wron
     assert all(event["detected"] is None for event in events if event["status"] != "ok")
 
 
-def test_a_flight_that_departs_without_detection_is_diverged(tmp_path):
+@pytest.mark.parametrize("backend", ["auto", "numpy"])
+def test_a_flight_that_departs_without_detection_is_diverged(tmp_path, backend):
     # gusts of 60 m/s, one sigma: no law can hold that
     text = TEXT.replace("wind: light", "wind: severe").replace("duration_s: 3.0", "duration_s: 20.0")
     text = text.replace("gust_scale_ratio: {uniform: [0.0, 0.3]}", "gust_scale_ratio: {uniform: [9.0, 10.0]}")
     assembly = assemble(read_campaign(write(tmp_path, text)))
-    rows, _ = rows_and_events(assembly, np.arange(assembly.plan.n_cases))
+    rows, _ = _flown_by(Flyer(assembly, backend))
     diverged = [row for row in rows if row["status"] == "diverged"]
     assert diverged
     assert all("departed at sample" in row["reason"] and row["false_alarm"] is None for row in diverged)

@@ -12,6 +12,7 @@ from fddbench import load
 from fddbench.campaign.load import read_campaign
 from fddbench.results.table import load_events
 from fddbench.runner.assembly import assemble
+from fddbench.runner.flight import Flyer
 from fddbench.runner.run import run_campaign
 from fddbench.runner.work import rows_and_events
 
@@ -36,7 +37,15 @@ def reference(everything, tmp_path_factory):
 
 
 @pytest.mark.parametrize(
-    "options", [{"jobs": 2}, {"jobs": 1, "chunk": 1}, {"jobs": 2, "chunk": 7}, {"jobs": 1, "chunk": 64}]
+    "options",
+    [
+        {"jobs": 2},
+        {"jobs": 1, "chunk": 1},
+        {"jobs": 2, "chunk": 7},
+        {"jobs": 1, "chunk": 64},
+        {"jobs": 1, "backend": "numpy"},
+        {"jobs": 2, "backend": "numpy", "chunk": 9},
+    ],
 )
 def test_jobs_and_chunks_change_no_bit(everything, reference, tmp_path, options):
     rows, events = flown(everything, tmp_path / "other", **options)
@@ -54,7 +63,7 @@ def test_the_fixture_has_what_it_claims(reference):
 def _rows(text: str, folder: Path) -> list[dict]:
     folder.mkdir()
     assembly = assemble(read_campaign(write(folder, text)))
-    return rows_and_events(assembly, np.arange(assembly.plan.n_cases))[0]
+    return rows_and_events(Flyer(assembly), np.arange(assembly.plan.n_cases))[0].to_pylist()
 
 
 def _same(a: list[dict], b: list[dict]) -> bool:
@@ -107,9 +116,7 @@ def test_zero_size_faults_fly_as_healthy_flights_do(tmp_path):
     (tmp_path / "zero").mkdir()
     text = head + "scenarios:\n  - {name: healthy, manoeuvre: cruise}\n" + zero
     assembly = assemble(read_campaign(write(tmp_path / "zero", text)))
-    from fddbench.runner.flight import fly
-
-    outcome = fly(assembly, assembly.batch(np.arange(assembly.plan.n_cases)))
+    outcome = Flyer(assembly).fly(assembly.batch(np.arange(assembly.plan.n_cases)))
     for detector, score in outcome.scores.items():
         named = assembly.scoring.states.unpack(score)
         margins = np.maximum(named.margin_healthy, named.margin_faulty).reshape(6, -1)

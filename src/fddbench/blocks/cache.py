@@ -2,10 +2,11 @@
 
 import os
 import tempfile
+from functools import cache
 from hashlib import sha256
 from pathlib import Path
 
-__all__ = ["folder", "key", "load", "store"]
+__all__ = ["folder", "key", "load", "source", "store"]
 
 _DIGEST = 32
 
@@ -21,6 +22,13 @@ def folder() -> Path:
 def key(*parts: str) -> str:
     """Name of an entry: sha256 of everything that the machine code depends on."""
     return sha256("\0".join(parts).encode()).hexdigest()
+
+
+@cache
+def source() -> str:
+    """Identity of the code that writes machine code: sha256 of this package's source."""
+    files = sorted(Path(__file__).parent.glob("*.py"))
+    return sha256(b"\0".join(file.read_bytes() for file in files)).hexdigest()
 
 
 def load(name: str) -> bytes | None:

@@ -95,8 +95,8 @@ class Vectors:
         )
         if a.startswith("splat"):  # a number, which is not nan
             return chosen
-        nan = self.let(f"fcmp uno {self.V} {a}, {a}")
-        return self.let(f"select {self.M} {nan}, {self.V} {a}, {self.V} {chosen}")
+        ordered = self.let(f"fcmp ord {self.V} {a}, {a}")
+        return self.let(f"select {self.M} {ordered}, {self.V} {chosen}, {self.V} {a}")
 
     def _min(self, a: str, b: str) -> str:
         return self._extreme("olt", a, b)

@@ -38,16 +38,16 @@ class Interpreter:
         order = range(len(self.program.nodes))
         self._once = [j for j in order if once[j]]
         self._each = [j for j in order if not once[j]]
-        self._freed = self._last_uses()
+        self._freed = self._last_uses(once)
         self._known: dict[int, Any] = {}
 
-    def _last_uses(self) -> dict[int, list[int]]:
-        """Nodes to forget after each node, so that temporaries do not pile up."""
+    def _last_uses(self, once: list[bool]) -> dict[int, list[int]]:
+        """Nodes to forget after each node, so that temporaries do not pile up; what is fixed stays for the next run."""
         kept = {node for rows in self.program.outputs.values() for node in rows}
         last = {a: j for j, node in enumerate(self.program.nodes) for a in node.arguments}
         freed: dict[int, list[int]] = {}
         for argument, j in last.items():
-            if argument not in kept:
+            if argument not in kept and not once[argument]:
                 freed.setdefault(j, []).append(argument)
         return freed
 

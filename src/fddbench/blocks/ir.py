@@ -10,9 +10,9 @@ _POINTERS = ("state", "constants", "samples", "run", "flight", "scenario", "tile
 
 
 def write(spec: Spec, lanes: int, *, rounds: bool) -> str:
-    """LLVM module with one function ``fly``.
+    """LLVM module with the functions ``fly`` and ``slots``, the number of vectors of workspace that it needs.
 
-    Its arguments: padded number of cases n, first sample, sample to stop before, key; then addresses of state
+    Arguments: padded number of cases n, first sample, sample to stop before, key; then addresses of state
     (n_state, n), constants (n_constant, n), samples to fly (n,), run, flight and scenario words (n,), the tile
     (n_time, n_recorded, n) and the workspace. Numbers are float64 and int64, the words uint64.
     """
@@ -39,7 +39,8 @@ def write(spec: Spec, lanes: int, *, rounds: bool) -> str:
     o.do("br i1 %blocks_left, label %block, label %done")
     o.do("done:")
     o.do("ret void")
-    return "\n".join(o.lines) + "\n}\n" + o.declarations() + "\n"
+    size = f"define i64 @slots() nounwind {{\n  ret i64 {spec.slots}\n}}"
+    return "\n".join([*o.lines, "}", size, o.declarations(), ""])
 
 
 def _block(o: Vectors, spec: Spec) -> None:

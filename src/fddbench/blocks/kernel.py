@@ -1,6 +1,6 @@
 """Flying a chunk of cases over many samples: the same call for the NumPy interpreter and for compiled code."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -84,7 +84,7 @@ def build(
         raise FddbenchError(f"no back end is called {backend!r}; known: auto, llvm, numpy")
     if backend == "llvm" and not llvm.available():
         raise FddbenchError(
-            "the back end 'llvm' needs llvmlite: pip install llvmlite, or --backend numpy (the same bits)"
+            "the back end 'llvm' needs llvmlite 0.45 or later: pip install llvmlite, or --backend numpy (the same bits)"
         )
     kept = program.keep("state", *(["finished"] if "finished" in program.outputs else []), *recorded)
     streams = (*((c, "flight") for c in consumers), *((c, "scenario") for c in fault_consumers))
@@ -146,11 +146,14 @@ class Compiled:
         if machine is None:
             raise FddbenchError(f"this processor does not run code for {target!r}")
         self.lanes = lanes or machine.lanes
-        self._program, self._recorded = program, recorded
-        spec = Spec(program=draws.with_draws(program), streams=streams, recorded=recorded)
-        self._slots = spec.slots
-        self.text = ir.write(spec, self.lanes, rounds=machine.rounds)
-        self._function: Callable[..., None] = llvm.load(self.text, machine)
+        self._program, self._streams, self._recorded, self._machine = program, streams, recorded, machine
+        identity = f"{program.hash} {streams} {recorded} {self.lanes} {machine.rounds}"
+        self._code = llvm.load(identity, self.text, machine)
+
+    def text(self) -> str:
+        """LLVM module of the kernel."""
+        spec = Spec(program=draws.with_draws(self._program), streams=self._streams, recorded=self._recorded)
+        return ir.write(spec, self.lanes, rounds=self._machine.rounds)
 
     def fly(
         self, state: Floats, constants: Floats, samples: Integers, addresses: Addresses, *, first: int, end: int
@@ -170,9 +173,9 @@ class Compiled:
             flying,
             *(_words(word, n_cases, padding) for word in (addresses.run, addresses.flight, addresses.scenario)),
             tile,
-            _aligned(self._slots * self.lanes),
+            _aligned(self._code.slots * self.lanes),
         ]
-        self._function(width, first, end, addresses.key, *(array.ctypes.data for array in arrays))
+        self._code.fly(width, first, end, addresses.key, *(array.ctypes.data for array in arrays))
         recorded = _split(tile[:, :, :n_cases], self._program, self._recorded)
         return Flown(state=arrays[0][:, :n_cases], samples=flying[:n_cases], recorded=recorded)
 
@@ -195,5 +198,5 @@ def _words(word: npt.ArrayLike, n_cases: int, padding: int) -> Any:
 
 def _aligned(size: int) -> Floats:
     """Workspace that starts at a cache line and, for the widest vectors, at a multiple of their size."""
-    space = np.empty(size + 16)
-    return space[(-space.ctypes.data % 128) // 8 :]
+    space = np.empty(size + 32)
+    return space[(-space.ctypes.data % 256) // 8 :]

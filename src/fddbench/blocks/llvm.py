@@ -4,13 +4,13 @@ import ctypes
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from importlib.util import find_spec
+from importlib.metadata import PackageNotFoundError, version
 from itertools import count
 from typing import Any
 
 from fddbench.blocks import cache as objects
 
-__all__ = ["Machine", "available", "load", "machine"]
+__all__ = ["Loaded", "Machine", "available", "compile_object", "load", "machine"]
 
 _NAMED = {
     "x86-64": ("x86-64", "", ("sse2",), 2),
@@ -18,6 +18,7 @@ _NAMED = {
     "haswell": ("haswell", "", ("avx2", "fma", "bmi2"), 4),
 }
 _ARGUMENTS = (*[ctypes.c_int64] * 3, ctypes.c_uint64, *[ctypes.c_void_p] * 8)
+_OLDEST = (0, 45)
 _libraries = count()
 
 
@@ -48,8 +49,12 @@ class Machine:
 
 
 def available() -> bool:
-    """Whether llvmlite is installed."""
-    return find_spec("llvmlite") is not None
+    """Whether llvmlite is installed, in a version whose LLVM reads what `ir` writes."""
+    try:
+        major, minor = version("llvmlite").split(".")[:2]
+    except PackageNotFoundError:
+        return False
+    return (int(major), int(minor)) >= _OLDEST
 
 
 @cache
@@ -77,22 +82,31 @@ def machine(name: str = "host") -> Machine | None:
     return Machine(triple, cpu, features, 2 * width, name != "x86-64")
 
 
-def load(text: str, target: Machine) -> Callable[..., None]:
-    """The function ``fly`` of an LLVM module, from the cache or compiled now; calls release the GIL."""
+@dataclass(frozen=True)
+class Loaded:
+    """Machine code in memory: the function of `ir.write`, which releases the GIL, and the vectors of its workspace."""
+
+    fly: Callable[..., None]
+    slots: int
+    library: Any
+
+
+def load(identity: str, text: Callable[[], str], target: Machine) -> Loaded:
+    """Kernel called `identity` for a processor, from the cache or compiled now from the LLVM text.
+
+    The text is a pure function of the identity and of this package's source, so it need not be written to look up the
+    cache.
+    """
     binding = _binding()
-    name = objects.key(text, ".".join(map(str, binding.llvm_version_info)), target.key)
+    name = objects.key(identity, objects.source(), ".".join(map(str, binding.llvm_version_info)), target.key)
     body = objects.load(name)
     if body is None:
-        body = compile_object(text, target)
+        body = compile_object(text(), target)
         objects.store(name, body)
-    tracker = binding.JITLibraryBuilder().add_object_img(body).add_current_process().export_symbol("fly")
-    library = tracker.link(_jit(), f"fddbench_{next(_libraries)}")
-    address = ctypes.CFUNCTYPE(None, *_ARGUMENTS)(library["fly"])
-
-    def fly(*arguments: Any, _keep: Any = library) -> None:
-        address(*arguments)
-
-    return fly
+    builder = binding.JITLibraryBuilder().add_object_img(body).add_current_process()
+    library = builder.export_symbol("fly").export_symbol("slots").link(_jit(), f"fddbench_{next(_libraries)}")
+    slots = int(ctypes.CFUNCTYPE(ctypes.c_int64)(library["slots"])())
+    return Loaded(ctypes.CFUNCTYPE(None, *_ARGUMENTS)(library["fly"]), slots, library)
 
 
 @cache

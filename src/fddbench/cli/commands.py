@@ -6,7 +6,7 @@ from pathlib import Path
 
 from fddbench.errors import FddbenchError, ResultsError
 
-__all__ = ["check", "init", "list_", "report", "run", "schema", "scores"]
+__all__ = ["check", "cost", "init", "list_", "report", "run", "schema", "scores"]
 
 
 def run(args: argparse.Namespace) -> int:
@@ -21,7 +21,15 @@ def run(args: argparse.Namespace) -> int:
     campaign = read_campaign(args.campaign, args.overrides)
     folder = args.out or Path("results") / campaign.name
     with shown(campaign.name, quiet=args.quiet) as progress:
-        report = run_campaign(campaign, folder, jobs=args.jobs, fresh=args.fresh, progress=progress)
+        report = run_campaign(
+            campaign,
+            folder,
+            jobs=args.jobs,
+            fresh=args.fresh,
+            backend=args.backend,
+            progress=progress,
+            notice=lambda text: print(f"fddbench: {text}", file=sys.stderr),
+        )
     if report.interrupted:
         done = report.continued + report.flights
         print(
@@ -75,6 +83,25 @@ def scores(args: argparse.Namespace) -> int:
     from fddbench.results.table import load
 
     print(scores_text(load(args.folder), provenance_of(args.folder)), end="")
+    return 0
+
+
+def cost(args: argparse.Namespace) -> int:
+    """Count what a step of a detector costs: the load on a flight computer.
+
+    Operations by kind, multiply-add pairs, bytes of state and tables, and nanoseconds per step and flight in compiled
+    code on this machine.
+    """
+    from fddbench.campaign.load import read_campaign
+    from fddbench.runner.assembly import assemble
+    from fddbench.runner.load import detector_load, in_words
+
+    assembly = assemble(read_campaign(args.campaign, [*args.overrides, f"detectors=[{args.detector}]"]))
+    load = detector_load(assembly.detectors[args.detector], assembly.loop.bus)
+    print(f"{args.detector}, at {assembly.loop.bus.sample_s} s: {in_words(load)}")
+    if load.cost is not None:
+        for name, number in load.cost.operations.items():
+            print(f"  {name:<12}{number:>6}")
     return 0
 
 

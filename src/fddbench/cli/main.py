@@ -32,6 +32,10 @@ def parser() -> argparse.ArgumentParser:
         "--jobs", type=_jobs, default=2, metavar="N", help="worker processes (default: 2); no part of any result"
     )
     run.add_argument("--fresh", action="store_true", help="replace what the folder holds")
+    run.add_argument(
+        "--backend", choices=("auto", "llvm", "numpy"), default="auto",
+        help="compiled where llvmlite is installed (auto), always, or never; no part of any result",
+    )  # fmt: skip
     run.add_argument("--quiet", action="store_true", help="no progress")
 
     report = _add(subs, "report", commands.report)
@@ -40,6 +44,14 @@ def parser() -> argparse.ArgumentParser:
 
     scores = _add(subs, "scores", commands.scores)
     scores.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+
+    cost = _add(subs, "cost", commands.cost)
+    cost.add_argument("detector", metavar="DETECTOR", help="name of a design")
+    cost.add_argument(
+        "--campaign", type=Path, default=Path("smoke"), metavar="CAMPAIGN.yaml",
+        help="campaign whose benchmark and sample time count (default: the shipped smoke campaign)",
+    )  # fmt: skip
+    cost.set_defaults(overrides=[])
 
     check = _add(subs, "check", commands.check)
     _campaign(check)

@@ -13,6 +13,8 @@ from fddbench.reporting.page import ReportData
 from fddbench.reporting.published import published_for
 from fddbench.results.folder import provenance_of
 from fddbench.results.table import load, load_events
+from fddbench.runner.assembly import assemble
+from fddbench.runner.load import detector_load, in_words
 from fddbench.runner.replay import replay, sampled_cases
 
 __all__ = ["report_data"]
@@ -30,7 +32,6 @@ _SETTINGS = (
     "sample_s",
     "substeps",
 )
-_SHOWN = ("r_deg_s", "r_voted_deg_s")
 _AFTER_S, _LEAST_S = 3.0, 5.0
 
 
@@ -45,6 +46,11 @@ def report_data(folder: Path) -> ReportData:
     provenance, rows = provenance_of(folder), load(folder)
     campaign = read_campaign(folder / "campaign.yaml")
     content: dict[str, Any] = {name: getattr(campaign, name) for name in _SETTINGS} | yaml.safe_load(campaign.text)
+    assembly = assemble(campaign)
+    loads = {
+        name: in_words(detector_load(detector, assembly.loop.bus, timed=False))
+        for name, detector in assembly.detectors.items()
+    }
     chosen = sampled_cases(rows, seed=campaign.seed)
     return ReportData(
         campaign=content,
@@ -52,10 +58,18 @@ def report_data(folder: Path) -> ReportData:
         events=load_events(folder),
         provenance=_flat(provenance),
         designs=[
-            {"name": d.name, "kind": d.kind, "source": d.source, "about": d.about, "sha256": d.sha256}
+            {
+                "name": d.name,
+                "kind": d.kind,
+                "source": d.source,
+                "about": d.about,
+                "sha256": d.sha256,
+                "load": loads[d.name],
+                "gamma": d.gamma,
+            }
             for d in campaign.designs
         ],
-        recordings=list(replay(folder, chosen, seconds=_seconds(rows), signals=_SHOWN)),
+        recordings=list(replay(folder, chosen, seconds=_seconds(rows), signals=assembly.plan.benchmark.shown)),
         published=published_for(content),
     )
 

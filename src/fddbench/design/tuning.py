@@ -34,7 +34,8 @@ def held_peaks(signal: Floats, confirm_samples: int) -> Floats:
     if len(signal) <= confirm_samples:
         return np.zeros(signal.shape[1])
     held = np.lib.stride_tricks.sliding_window_view(np.abs(signal), confirm_samples + 1, axis=0).min(axis=-1)
-    return np.asarray(held.max(axis=0))
+    peaks: Floats = np.fmax.reduce(held, axis=0)  # a flight that has ended shows no number
+    return peaks
 
 
 def tuned(peaks: Floats, false_alarm_rate: float) -> Tuned:

@@ -1,5 +1,7 @@
 """Confirmation times: how long a flag must stand before it counts."""
 
+from math import ceil
+
 import numpy as np
 
 from fddbench.blocks.layout import Rows
@@ -8,12 +10,12 @@ __all__ = ["held_samples", "samples"]
 
 
 def samples(time_s: float, sample_s: float) -> float:
-    """Confirmation time in whole samples.
+    """Confirmation time in whole samples, never shorter than asked.
 
-    >>> samples(0.1, 0.01)
-    10.0
+    >>> samples(0.1, 0.01), samples(0.1, 0.04)
+    (10.0, 3.0)
     """
-    return float(round(time_s / sample_s))
+    return float(ceil(time_s / sample_s - 1e-9))
 
 
 def held_samples(count: Rows, flag: Rows) -> Rows:

@@ -25,7 +25,8 @@ def choose(outlier: Rows, n_faulty: Rows, tripped: Rows, energy: Rows) -> Rows:
         Not negative; any unit.
     """
     logic = np.where(n_faulty >= 2.0, 1.0 - outlier, outlier)
-    score = list(logic + tripped * (2.0 + energy / (1.0 + energy)))
+    # not tripped: -2 or -1, below every energy
+    score = list(np.where(tripped > 0.0, energy, logic - 2.0))
     rows = []
     for i in range(len(score)):
         before = [score[j] >= score[i] if j < i else score[j] > score[i] for j in range(len(score)) if j != i]

@@ -67,7 +67,7 @@ class FaultStep:
         rows = np.repeat(np.concatenate(columns)[:, np.newaxis], n_cases, axis=1) if columns else np.zeros((0, n_cases))
         for j, fault in enumerate(faults):
             if fault.wave(units).phase_uniform:
-                site = 0 if fault.correlation == "identical" else slice(None)
+                site = slice(None) if fault.correlation == "independent" else 0
                 start = self.slot.size * j + self.slot.index["phase"].start  # type: ignore[union-attr]
                 rows[start : start + len(self.sites)] = 2.0 * np.pi * phases[j, site]
         return rows
@@ -135,6 +135,6 @@ class FaultStep:
         ramp = np.minimum(np.maximum(c.rate * time_s, -c.ramp_limit), c.ramp_limit)
         sine = c.amplitude * sin(c.frequency_rad_s * time_s + c.phase)
         wave = c.offset + ramp + sine + c.sigma * random + c.bit * bit
-        sum_ = c.keep * y + c.hold * held + c.sign * wave
+        sum_ = c.keep * y + c.hold * held + c.hold_value + c.sign * wave
         clipped = np.minimum(np.maximum(sum_, -c.clip), c.clip)
         return np.where(active, clipped, y), held, bit

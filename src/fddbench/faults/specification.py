@@ -36,7 +36,7 @@ def _key(name: str) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class FaultWave:
-    """The one fault signal: ``keep y + hold y_onset + offset + ramp + sine + noise + bits``, clipped.
+    """The one fault signal: ``keep y + hold y_onset + hold_value + offset + ramp + sine + noise + bits``, clipped.
 
     All sizes are in the unit of the fault sites.
 
@@ -44,6 +44,8 @@ class FaultWave:
     ----------
     keep, hold : float
         Share of the healthy and of the frozen signal [-].
+    hold_value : float
+        What stands in place of the healthy signal; the same on all sites, whatever the correlation.
     offset, ramp_limit, clip : float
         Constant part, where the ramp stops, and where the sum is clipped; infinite for never.
     rate : float
@@ -58,6 +60,7 @@ class FaultWave:
 
     keep: float = 1.0
     hold: float = 0.0
+    hold_value: float = 0.0
     offset: float = 0.0
     rate: float = 0.0
     ramp_limit: float = field(default=float("inf"))
@@ -167,7 +170,7 @@ class FaultSpecification(BaseModel):
         if self.freeze:
             return {"keep": 0.0, "hold": 1.0}
         percent = (self.hold_value_percent or 0.0) / 100.0 * units.admissible
-        return {"keep": 0.0, "offset": percent + (self.hold_value or 0.0)}
+        return {"keep": 0.0, "hold_value": percent + (self.hold_value or 0.0)}
 
 
 @cache

@@ -1,8 +1,11 @@
 """From score states at the end of a flight to the columns of rows and events."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
+
+import numpy as np
+import numpy.typing as npt
 
 from fddbench.interfaces import Floats
 from fddbench.metrics.scoring import NEVER, Scoring
@@ -37,23 +40,24 @@ def statuses(
     infeasible: Sequence[str],
     errors: Sequence[str],
 ) -> tuple[list[str], list[str | None]]:
-    """Status and reason of every case."""
+    """Status and reason of every case; of several the first in this order: infeasible, error, diverged, nonfinite."""
     x, c = scoring.states.unpack(score), scoring.constants.unpack(constants)
-    status, reason = [], []
-    for i in range(score.shape[1]):
-        left = departed[i] <= c.last[i]
+    status: list[str] = ["ok"] * score.shape[1]
+    reason: list[str | None] = [None] * score.shape[1]
+    left = (departed <= c.last) & (x.detection == NEVER)
+    rest = np.array([bool(a or b) for a, b in zip(infeasible, errors, strict=True)], dtype=bool)
+    for i in np.flatnonzero(rest | left | (x.nonfinite > 0.0)).tolist():
         if infeasible[i]:
-            found: tuple[str, str | None] = ("infeasible", infeasible[i])
+            status[i], reason[i] = "infeasible", infeasible[i]
         elif errors[i]:
-            found = ("error", errors[i])
-        elif left and x.detection[i] == NEVER:
-            found = ("diverged", f"the flight departed at sample {departed[i]:.0f}")
-        elif x.nonfinite[i] > 0.0:
-            found = ("nonfinite", "the detector's residual or verdict is not a finite number")
+            status[i], reason[i] = "error", errors[i]
+        elif left[i]:
+            status[i], reason[i] = "diverged", f"the flight departed at sample {departed[i]:.0f}"
         else:
-            found = ("ok", None)
-        status.append(found[0])
-        reason.append(found[1])
+            status[i], reason[i] = (
+                "nonfinite",
+                "the detector's residual is not a finite number, or its verdict not 0 or 1",
+            )
     return status, reason
 
 
@@ -70,85 +74,81 @@ def score_columns(
 ) -> Columns:
     """Score columns of one detector, one entry a case; all null where the status is not ok."""
     x, c = scoring.states.unpack(score), scoring.constants.unpack(constants)
-    columns: Columns = {}
-    for i in range(score.shape[1]):
-        faulty = truth.faulty_sites[i]
-        found = _truth_of(faulty, truth.limit_s[i], onset_s=_seconds(c.k0[i], sample_s) if faulty else None)
-        declared = tuple(site for site, on in zip(sites, x.declared[:, i], strict=True) if on > 0.0)
-        end = min(float(c.last[i]), float(departed[i]))
-        if status[i] == "ok":
-            number = {name: float(getattr(x, name)[i]) for name in scoring.states.fields if name != "declared"}
-            found |= _common(number, declared, k0=float(c.k0[i]), end=end, sample_s=sample_s)
-            if faulty:
-                found |= _of_fault(
-                    number, declared, faulty, truth.limit_s[i] or 0.0, k0=float(c.k0[i]), end=end, sample_s=sample_s
-                )
-        for name in _NAMES:
-            columns.setdefault(name, []).append(found.get(name))
-    return columns
-
-
-_NAMES = (
-    "flight_s", "n_faulty", "faulty_sites", "onset_s", "n_declared", "declared_sites", "first_alarm_time_s",
-    "detection_time_s", "detection_time_limit_s", "normalized_detection_time", "detected", "classified", "isolated",
-    "false_isolation", "over_declared", "missed", "censored", "false_alarm", "margin_healthy", "margin_faulty",
-)  # fmt: skip
-
-
-def _seconds(samples: float, sample_s: float) -> float:
-    """Time of a sample number [s], without the digits that binary fractions add."""
-    return round(samples * sample_s, 9)
-
-
-def _truth_of(faulty: tuple[str, ...], limit_s: float | None, *, onset_s: float | None) -> dict[str, Any]:
-    return {
-        "n_faulty": len(faulty),
-        "faulty_sites": "+".join(faulty) or None,
-        "onset_s": onset_s,
-        "detection_time_limit_s": limit_s,
+    ok = np.array([name == "ok" for name in status], dtype=bool)
+    n_faulty = np.array([len(faulty) for faulty in truth.faulty_sites], dtype=np.int64)
+    of_fault = ok & (n_faulty > 0)
+    limit_s = np.array([np.nan if limit is None else limit for limit in truth.limit_s])
+    end = np.minimum(c.last, departed - 1.0)
+    n_declared = np.round(np.where(ok, x.declared.sum(axis=0), 0.0)).astype(np.int64)
+    bits = 2 ** np.arange(len(sites), dtype=np.int64)
+    declared = (bits[:, np.newaxis] * (x.declared > 0.0)).sum(axis=0)
+    faulty = np.array([sum(int(bits[sites.index(s)]) for s in names) for names in truth.faulty_sites], dtype=np.int64)
+    columns: Columns = {
+        "flight_s": _nullable(_seconds(end, sample_s), ok),
+        "n_faulty": n_faulty.tolist(),
+        "faulty_sites": ["+".join(names) or None for names in truth.faulty_sites],
+        "onset_s": _nullable(_seconds(c.k0, sample_s), n_faulty > 0),
+        "n_declared": _nullable(n_declared, ok),
+        "declared_sites": _nullable(_names(declared, sites), ok & (declared > 0)),
+        "false_alarm": _nullable(x.false_alarm > 0.0, ok),
+        "margin_healthy": _nullable(x.margin_healthy, ok & (c.k0 > 0.0)),
+        "classified": _nullable(n_declared == n_faulty, of_fault),
+        "isolated": _nullable(declared == faulty, of_fault),
+        "false_isolation": _nullable((declared & ~faulty) != 0, of_fault),
+        "over_declared": _nullable(x.over_declared > 0.0, of_fault),
+        "margin_faulty": _nullable(x.margin_faulty, of_fault),
     }
+    times = _times(x.first_alarm, x.detection, k0=c.k0, end=end, limit_s=limit_s, sample_s=sample_s, valid=of_fault)
+    return columns | times | {"detection_time_limit_s": _nullable(limit_s, ~np.isnan(limit_s))}
 
 
-def _common(
-    x: Mapping[str, float], declared: tuple[str, ...], *, k0: float, end: float, sample_s: float
-) -> dict[str, Any]:
-    """Columns that healthy and faulty flights share."""
-    return {
-        "flight_s": _seconds(end, sample_s),
-        "n_declared": len(declared),
-        "declared_sites": "+".join(declared) or None,
-        "false_alarm": x["false_alarm"] > 0.0,
-        "margin_healthy": x["margin_healthy"] if k0 > 0.0 else None,
+def _nullable(values: Any, valid: Any) -> list[Any]:
+    """Plain Python values, None where not valid."""
+    found = np.asarray(values).astype(object)
+    found[~np.asarray(valid, dtype=bool)] = None
+    return list(found)
+
+
+def _names(codes: npt.NDArray[np.int64], sites: Sequence[str]) -> npt.NDArray[np.object_]:
+    """Names joined by + of sites given as bits."""
+    known = {
+        code: "+".join(site for i, site in enumerate(sites) if code >> i & 1) for code in np.unique(codes).tolist()
     }
+    return np.array([known[code] for code in codes.tolist()], dtype=object)
 
 
-def _of_fault(
-    x: Mapping[str, float], declared: tuple[str, ...], faulty: tuple[str, ...], limit_s: float,
-    *, k0: float, end: float, sample_s: float,
-) -> dict[str, Any]:  # fmt: skip
-    """Columns that a healthy flight does not have."""
-    return {
-        **_times(x["first_alarm"], x["detection"], k0=k0, end=end, limit_s=limit_s, sample_s=sample_s),
-        "classified": len(declared) == len(faulty),
-        "isolated": declared == faulty,
-        "false_isolation": any(site not in faulty for site in declared),
-        "over_declared": x["over_declared"] > 0.0,
-        "margin_faulty": x["margin_faulty"],
-    }
+def _seconds(samples: Floats, sample_s: float) -> Floats:
+    """Times of sample numbers [s], without the digits that binary fractions add."""
+    rounded: Floats = np.round(samples * sample_s, 9)
+    return rounded
 
 
-def _times(alarm: float, detection: float, *, k0: float, end: float, limit_s: float, sample_s: float) -> dict[str, Any]:
+def _times(
+    alarm: Floats,
+    detection: Floats,
+    *,
+    k0: Floats,
+    end: Floats,
+    limit_s: Floats,
+    sample_s: float,
+    valid: npt.NDArray[np.bool_],
+) -> Columns:
     """Times from the onset, and whether the requirement was met; a flight that ended too early is censored."""
-    detected_s = None if detection == NEVER else _seconds(detection - k0, sample_s)
-    censored = detected_s is None and _seconds(end - k0, sample_s) < limit_s
+    found = detection < NEVER
+    time_s = _seconds(np.where(found, detection - k0, 0.0), sample_s)
+    censored = ~found & (_seconds(end - k0, sample_s) < limit_s)
+    with np.errstate(invalid="ignore"):
+        late = ~found | (time_s > limit_s)
     return {
-        "first_alarm_time_s": None if alarm == NEVER else _seconds(alarm - k0, sample_s),
-        "detection_time_s": detected_s,
-        "detection_time_limit_s": limit_s,
-        "normalized_detection_time": None if detected_s is None else detected_s / limit_s,
-        "detected": alarm != NEVER,
-        "missed": None if censored else detected_s is None or detected_s > limit_s,
-        "censored": censored,
+        "first_alarm_time_s": _nullable(
+            _seconds(np.where(alarm < NEVER, alarm - k0, 0.0), sample_s), valid & (alarm < NEVER)
+        ),
+        "detection_time_s": _nullable(time_s, valid & found),
+        "detection_time_limit_s": _nullable(limit_s, valid),
+        "normalized_detection_time": _nullable(time_s / np.where(valid, limit_s, 1.0), valid & found),
+        "detected": _nullable(alarm < NEVER, valid),
+        "missed": _nullable(late, valid & ~censored),
+        "censored": _nullable(censored, valid),
     }
 
 
@@ -163,9 +163,21 @@ def event_columns(
     end: float,
     sample_s: float,
 ) -> dict[str, Any]:
-    """Times of one fault of one case, scored on its own sites and interval; the case must have the status ok."""
+    """Times of one fault of one case, scored on its own sites and interval; the case must have the status ok.
+
+    `end` is the last sample of the flight that was scored.
+    """
     x, c = scoring.states.unpack(score), scoring.constants.unpack(constants)
     interval = scoring.event.unpack(getattr(c, f"event_{event}"))
-    first, last = float(interval.first[case]), min(float(interval.last[case]), end)
-    alarm, detection = (float(getattr(x, f"{name}_{event}")[case]) for name in ("event_alarm", "event_detection"))
-    return _times(alarm, detection, k0=first, end=last, limit_s=limit_s, sample_s=sample_s)
+    last = np.minimum(interval.last[case : case + 1], end)
+    alarm, detection = (getattr(x, f"{name}_{event}")[case : case + 1] for name in ("event_alarm", "event_detection"))
+    columns = _times(
+        alarm,
+        detection,
+        k0=interval.first[case : case + 1],
+        end=last,
+        limit_s=np.array([limit_s]),
+        sample_s=sample_s,
+        valid=np.array([True]),
+    )
+    return {name: values[0] for name, values in columns.items()}

@@ -69,12 +69,15 @@ class Scoring:
     def step(self, state: Rows, verdict: Verdict, constants: Rows, sample: Rows, alive: Rows) -> Rows:
         """Score after one more sample; flights that have departed or ended keep theirs."""
         x, c = self.states.unpack(state), self.constants.unpack(constants)
-        n = total(verdict.declared)
+        declared = verdict.declared * 1.0  # a plug-in may declare with booleans, whose sum would be a logical or
+        n = total(declared)
         active = alive & (sample <= c.last)
         faulty = active & (sample >= c.k0)
         healthy = active & (sample < c.k0)
-        finite = np.abs(verdict.ratio) + n < np.inf
-        events = self._events(x, c, verdict.declared, sample, active)
+        # 0 for verdicts of 0 and 1 only; what is anything else, or not a number, is not repaired but said
+        odd = total(np.abs(declared * (declared - 1.0)))
+        sound = (np.abs(verdict.ratio) < np.inf) & (odd == 0.0)
+        events = self._events(x, c, declared, sample, active)
         return self.states.pack(
             first_alarm=_first(x.first_alarm, faulty & (n > 0.0), sample),
             detection=_first(x.detection, faulty & (n == c.n_faulty), sample),
@@ -82,8 +85,8 @@ class Scoring:
             false_alarm=np.where(healthy & (n > 0.0), 1.0, x.false_alarm),
             margin_healthy=np.where(healthy, np.maximum(x.margin_healthy, verdict.ratio), x.margin_healthy),
             margin_faulty=np.where(faulty, np.maximum(x.margin_faulty, verdict.ratio), x.margin_faulty),
-            nonfinite=np.where(active & ~finite, 1.0, x.nonfinite),
-            declared=np.where(active, verdict.declared, x.declared),
+            nonfinite=np.where(active & ~sound, 1.0, x.nonfinite),
+            declared=np.where(active, declared, x.declared),
             **events,
         )
 

@@ -32,7 +32,7 @@ class ReportData:
     provenance : mapping of str to str
         Versions, machine, date, wall time, hashes: shown as it is.
     designs : sequence of mapping
-        Per detector name, kind, source, about, sha256.
+        Per detector name, kind, source, about, load (of a step, in words), sha256.
     recordings : sequence of Recording
         Re-flown cases, one recording per scenario.
     published : Published or None

@@ -161,6 +161,23 @@ class Assembly:
         )
 
 
+def loop_of(planned: Plan) -> Loop:
+    """Closed loop of a campaign's benchmark with its options."""
+    campaign = planned.campaign
+    return planned.benchmark.loop(
+        Options(
+            plant=campaign.plant,
+            voter=campaign.voter,
+            sensors=campaign.sensors,
+            wind=campaign.wind,
+            sample_s=campaign.sample_s,
+            substeps=campaign.substeps,
+            # one at least: a layout has no field of no rows
+            fault_slots=max(1, *(len(scenario.faults) for scenario in planned.scenarios)),
+        )
+    )
+
+
 def assemble(campaign: Campaign) -> Assembly:
     """Loop, detectors and scoring of a campaign.
 
@@ -170,18 +187,7 @@ def assemble(campaign: Campaign) -> Assembly:
         A design does not make a detector for this benchmark.
     """
     planned = plan(campaign)
-    slots = max(1, *(len(scenario.faults) for scenario in planned.scenarios))  # a layout has no field of no rows
-    loop = planned.benchmark.loop(
-        Options(
-            plant=campaign.plant,
-            voter=campaign.voter,
-            sensors=campaign.sensors,
-            wind=campaign.wind,
-            sample_s=campaign.sample_s,
-            substeps=campaign.substeps,
-            fault_slots=slots,
-        )
-    )
+    loop = loop_of(planned)
     n_events = max((len(s.faults) for s in planned.scenarios if has_events(s)), default=0)
     return Assembly(
         plan=planned,

@@ -7,13 +7,16 @@ import numpy.typing as npt
 
 from fddbench.campaign.plan import Plan
 
-__all__ = ["CHUNK", "cut", "expand", "missing", "spans"]
+__all__ = ["CHUNK", "COMPILED_CHUNK", "cut", "expand", "missing", "spans"]
 
 Cases = npt.NDArray[np.int64]
 Spans = tuple[tuple[int, int], ...]
 
 CHUNK = 256
-"""Cases flown side by side: wide enough to hide NumPy's cost per call, narrow enough to stay in the cache."""
+"""Cases flown side by side with NumPy: wide enough to hide NumPy's cost per call, narrow enough to stay in the cache."""
+
+COMPILED_CHUNK = 1024
+"""Cases of one shard when compiled code flies them, a vector of cases at a time: few enough that all workers have some."""
 
 
 def cut(plan: Plan, cases: Cases, *, size: int, jobs: int) -> list[Cases]:
@@ -27,7 +30,8 @@ def cut(plan: Plan, cases: Cases, *, size: int, jobs: int) -> list[Cases]:
     chunks: list[Cases] = []
     for samples in sorted(set(length.tolist()), reverse=True):
         alike = cases[length == samples]
-        n_chunks = max(-(-len(alike) // size), min(jobs, -(-len(alike) // 16)))
+        n_chunks = max(-(-len(alike) // size), 1)
+        n_chunks = min(-(-n_chunks // jobs) * jobs, max(n_chunks, -(-len(alike) // 16)))
         chunks += [part for part in np.array_split(alike, n_chunks) if len(part)]
     return chunks
 

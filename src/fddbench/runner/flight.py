@@ -1,22 +1,22 @@
-"""Flies a batch with NumPy, sample by sample, all cases side by side: the reference path."""
+"""Flies batches: compiled where llvmlite is, else with NumPy; the same bits either way."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from functools import cached_property, lru_cache
+from types import SimpleNamespace
 
 import numpy as np
 
-from fddbench.interfaces import Detector, Floats, Verdict
-from fddbench.metrics.scoring import NEVER
+from fddbench.blocks import kernel, llvm
+from fddbench.interfaces import Floats
 from fddbench.runner.assembly import Assembly, Batch
+from fddbench.runner.eager import DetectorFlight, fly_eagerly
+from fddbench.runner.fused import Fused, why_opaque
 
-__all__ = ["Outcome", "Recorder", "fly"]
+__all__ = ["Flyer", "Outcome"]
 
-_TILE = 50
-"""Samples whose random numbers are drawn together; no part of any result."""
-
-Recorder = Callable[[int, Any, Mapping[str, Floats], Mapping[str, Verdict]], None]
-"""Called every sample with the sample number, the measured bus, the truth and the verdicts."""
+_TILE = 500
+"""Samples recorded at a time for opaque detectors; no part of any result."""
 
 
 @dataclass(kw_only=True, eq=False)
@@ -33,62 +33,118 @@ class Outcome:
         Sample at which the flight departed, `NEVER` if it did not.
     errors : dict of str to list of str
         By detector, what its step raised for each case ("": nothing).
+    recorded : dict of str to (n_time, n_rows, n_cases) arrays
+        What was asked for: ``measured:NAME``, ``truth:NAME``, ``DETECTOR:NAME``.
     """
 
     batch: Batch
     scores: dict[str, Floats]
     departed: Floats
     errors: dict[str, list[str]] = field(default_factory=dict)
+    recorded: dict[str, Floats] = field(default_factory=dict)
 
 
-def fly(assembly: Assembly, batch: Batch, recorder: Recorder | None = None) -> Outcome:
-    """Fly all cases of a batch to the end of the longest.
+class Flyer:
+    """Flies batches of one assembly.
 
-    A detector whose step raises is flown again case by case, so that a case's row does not depend on its company.
+    Parameters
+    ----------
+    assembly : Assembly
+        What flies.
+    backend : {"auto", "llvm", "numpy"}
+        ``auto`` compiles where llvmlite is installed.
     """
-    outcome, raised = _fly(assembly, batch, assembly.detectors, recorder)
-    n_cases = len(batch.cases)
-    for name, message in raised.items():
-        if n_cases == 1:
-            outcome.errors[name] = [message]
-            continue
-        alone = {name: assembly.detectors[name]}
-        parts = [_fly(assembly, batch.take(np.array([i])), alone, None) for i in range(n_cases)]
-        outcome.scores[name] = np.concatenate([part.scores[name] for part, _ in parts], axis=1)
-        outcome.errors[name] = [texts.get(name, "") for _, texts in parts]
-    return outcome
 
+    def __init__(self, assembly: Assembly, backend: str = "auto") -> None:
+        self.assembly = assembly
+        self.compiled = backend == "llvm" or (backend == "auto" and llvm.available())
 
-def _fly(
-    assembly: Assembly, batch: Batch, detectors: Mapping[str, Detector], recorder: Recorder | None
-) -> tuple[Outcome, dict[str, str]]:
-    """Scores of the detectors, and what those raised that gave up."""
-    n_cases = len(batch.cases)
-    loop, scoring = assembly.loop, assembly.scoring
-    state, departed = batch.state, np.full(n_cases, NEVER)
-    states = {name: detector.start(n_cases) for name, detector in detectors.items()}
-    scores = {name: scoring.start(n_cases) for name in detectors}
-    raised: dict[str, str] = {}
-    last = int(scoring.constants.unpack(batch.score_constants).last.max())
-    with np.errstate(all="ignore"):
-        for first in range(0, last + 1, _TILE):
-            normals = assembly.normals(batch, first, min(_TILE, last + 1 - first))
-            for j, drawn in enumerate(normals):
-                sample = float(first + j)
-                state, measured, truth, gone = loop.step(state, batch.constants, drawn, sample)
-                departed = np.where(gone, np.minimum(departed, sample), departed)
-                verdicts: dict[str, Verdict] = {}
-                for name, detector in detectors.items():
-                    if name in raised:
-                        continue
-                    try:
-                        states[name], verdict = detector.step(states[name], measured)
-                        scores[name] = scoring.step(
-                            scores[name], verdict, batch.score_constants, sample, sample < departed
-                        )
-                        verdicts[name] = verdict
-                    except Exception as error:  # a user's detector may raise anything; it becomes a row
-                        raised[name] = f"{type(error).__name__}: {error}"
-                if recorder is not None:
-                    recorder(first + j, measured, truth, verdicts)
-    return Outcome(batch=batch, scores=scores, departed=departed), raised
+    @cached_property
+    def opaque(self) -> dict[str, str]:
+        """Detectors that cannot be compiled, and why; they fly in Python on recorded signals."""
+        bus = self.assembly.loop.bus
+        reasons = {name: why_opaque(detector, bus) for name, detector in self.assembly.detectors.items()}
+        return {name: reason for name, reason in reasons.items() if reason}
+
+    @cached_property
+    def fused(self) -> Fused:
+        """Step of everything that can be compiled."""
+        return Fused(self.assembly, tuple(name for name in self.assembly.detectors if name not in self.opaque))
+
+    @lru_cache(maxsize=4)  # noqa: B019  (a flyer lives as long as its process)
+    def kernel(self, recorded: tuple[str, ...]) -> kernel.Kernel:
+        """Kernel that stores these outputs."""
+        loop = self.assembly.loop
+        return kernel.build(
+            self.fused.program(),
+            consumers=loop.consumers,
+            fault_consumers=loop.fault_consumers,
+            recorded=recorded,
+            backend="llvm",
+        )
+
+    def prepare(self) -> None:
+        """Compile what flying without a recording needs, so that threads find it done."""
+        if self.compiled:
+            self.kernel(self._needed(()))
+
+    def fly(self, batch: Batch, recorded: Sequence[str] = ()) -> Outcome:
+        """Fly all cases of a batch, each to its own end."""
+        if not self.compiled:
+            scores, departed, errors, tape = fly_eagerly(self.assembly, batch, recorded)
+            return Outcome(batch=batch, scores=scores, departed=departed, errors=errors, recorded=tape)
+        return self._fly_compiled(batch, tuple(recorded))
+
+    def _needed(self, recorded: tuple[str, ...]) -> tuple[str, ...]:
+        """Outputs to store: those asked for, and the measured bus where an opaque detector reads it."""
+        own = tuple(name for name in recorded if name.split(":")[0] not in self.opaque)
+        bus = tuple(f"measured:{name}" for name in self.assembly.loop.bus.signals) if self.opaque else ()
+        return tuple(dict.fromkeys((*own, *bus, *(("departed",) if self.opaque else ()))))
+
+    def _fly_compiled(self, batch: Batch, recorded: tuple[str, ...]) -> Outcome:
+        assembly, fused = self.assembly, self.fused
+        state, constants = fused.start(batch)
+        samples = assembly.scoring.constants.unpack(batch.score_constants).last.astype(np.int64) + 1
+        addresses = kernel.Addresses(
+            key=assembly.plan.campaign.seed, run=batch.run, flight=assembly.plan.stream, scenario=batch.scenario_stream
+        )
+        needed = self._needed(recorded)
+        compiled, end = self.kernel(needed), int(samples.max())
+        opaque = [DetectorFlight(assembly, name, batch, recorded) for name in self.opaque]
+        kept: dict[str, list[Floats]] = {name: [] for name in needed if name in recorded}
+        step = _TILE if needed else end
+        for first in range(0, end, step):
+            flown = compiled.fly(state, constants, samples, addresses, first=first, end=min(first + step, end))
+            state, samples = flown.state, flown.samples
+            for name, parts in kept.items():
+                parts.append(flown.recorded[name])
+            if opaque:
+                self._show(opaque, flown.recorded, first=first)
+        x = fused.states.unpack(state)
+        outcome = Outcome(
+            batch=batch,
+            scores={name: getattr(x, f"score_{i}") for i, name in enumerate(fused.detectors)},
+            departed=x.departed,
+            recorded={name: np.concatenate(parts) for name, parts in kept.items()},
+        )
+        for flight in opaque:
+            outcome.scores[flight.name], outcome.errors[flight.name] = flight.finish()
+            outcome.recorded |= flight.tape(end)
+        return outcome
+
+    def _show(self, opaque: Sequence[DetectorFlight], recorded: Mapping[str, Floats], *, first: int) -> None:
+        """Feed opaque detectors with a tile of recorded signals; flights that have ended show not-a-number."""
+        signals = self.assembly.loop.bus.signals
+        departed = np.nan_to_num(recorded["departed"][:, 0], nan=0.0)
+        for rows in recorded.values():
+            rows.flags.writeable = False
+        with np.errstate(all="ignore"):
+            for j in range(len(departed)):
+                measured = SimpleNamespace(
+                    **{
+                        name: recorded[f"measured:{name}"][j] if rows else recorded[f"measured:{name}"][j, 0]
+                        for name, rows in signals.items()
+                    }
+                )
+                for flight in opaque:
+                    flight.step(measured, float(first + j), departed[j])

@@ -15,12 +15,15 @@ from fddbench.runner.work import fly_and_write
 __all__ = ["fly_all"]
 
 _ATTEMPTS = 3
+Work = tuple[str, str, str]
+"""Folder of results, the campaign's sha256 and the back end."""
 
 
-def fly_all(folder: str, campaign_sha256: str, chunks: Sequence[Spans], *, jobs: int) -> Generator[Shard, None, None]:
+def fly_all(work: Work, chunks: Sequence[Spans], *, jobs: int, threads: bool) -> Generator[Shard, None, None]:
     """Shards in the order in which they finish.
 
-    With one job everything happens in this process. A killed worker aborts the pool but loses nothing that is written:
+    With one job everything happens in this process. Threads are for compiled flights, which release the interpreter's
+    lock; processes for those that run in Python. A killed worker aborts the pool but loses nothing that is written:
     what is missing is given out again.
 
     Raises
@@ -31,7 +34,7 @@ def fly_all(folder: str, campaign_sha256: str, chunks: Sequence[Spans], *, jobs:
     left = list(chunks)
     for _ in range(_ATTEMPTS):
         try:
-            for shard in _once(folder, campaign_sha256, left, jobs=jobs):
+            for shard in _once(work, left, jobs=jobs, threads=threads):
                 left = [chunk for chunk in left if chunk != shard.cases]
                 yield shard
             return
@@ -43,14 +46,15 @@ def fly_all(folder: str, campaign_sha256: str, chunks: Sequence[Spans], *, jobs:
     )
 
 
-def _once(folder: str, campaign_sha256: str, chunks: Sequence[Spans], *, jobs: int) -> Iterator[Shard]:
+def _once(work: Work, chunks: Sequence[Spans], *, jobs: int, threads: bool) -> Iterator[Shard]:
     if jobs == 1 or len(chunks) <= 1:
-        yield from (fly_and_write(folder, campaign_sha256, chunk) for chunk in chunks)
+        yield from (fly_and_write(*work, chunk) for chunk in chunks)
         return
     from joblib import Parallel, delayed
 
-    pool = Parallel(n_jobs=jobs, backend="loky", return_as="generator_unordered", initializer=_begin_worker)
-    yield from pool(delayed(fly_and_write)(folder, campaign_sha256, chunk) for chunk in chunks)
+    options = {"backend": "threading"} if threads else {"backend": "loky", "initializer": _begin_worker}
+    pool = Parallel(n_jobs=jobs, return_as="generator_unordered", **options)
+    yield from pool(delayed(fly_and_write)(*work, chunk) for chunk in chunks)
 
 
 def _begin_worker() -> None:

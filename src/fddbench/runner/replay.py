@@ -3,19 +3,17 @@
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from fddbench.blocks.linear import total
 from fddbench.blocks.philox import philox4x32
 from fddbench.campaign.load import read_campaign
 from fddbench.campaign.plan import PlannedScenario
-from fddbench.interfaces import Floats, Recording, Verdict
+from fddbench.interfaces import Floats, Recording
 from fddbench.runner.assembly import Assembly, Batch, assemble
-from fddbench.runner.flight import fly
+from fddbench.runner.flight import Flyer
 
 __all__ = ["MOST_CASES", "replay", "sampled_cases"]
 
@@ -66,74 +64,55 @@ def replay(
     signals : collection of str, optional
         Measured and true signals to keep; all by default. What the detectors show is always kept.
     """
-    assembly = assemble(read_campaign(folder / "campaign.yaml"))
-    for planned in assembly.plan.scenarios:
+    flyer = Flyer(assemble(read_campaign(folder / "campaign.yaml")))
+    for planned in flyer.assembly.plan.scenarios:
         chosen = (cases or {}).get(planned.name, np.arange(planned.first_case, planned.first_case + planned.n_runs))
-        if len(chosen):
-            yield _record(assembly, planned, chosen, (seconds or {}).get(planned.name), signals)
+        batch = flyer.assembly.batch(np.asarray(chosen, dtype=np.int64))
+        able = np.flatnonzero([reason == "" for reason in batch.infeasible_reason])
+        if len(able):
+            yield _record(flyer, planned, batch.take(able), (seconds or {}).get(planned.name), signals)
 
 
 def _record(
-    assembly: Assembly, planned: PlannedScenario, cases: Cases, seconds: float | None, signals: Collection[str] | None
+    flyer: Flyer, planned: PlannedScenario, batch: Batch, seconds: float | None, signals: Collection[str] | None
 ) -> Recording:
     """Signals of cases of one scenario."""
-    sample_s = assembly.loop.bus.sample_s
-    batch = assembly.batch(cases)
+    assembly, sample_s = flyer.assembly, flyer.assembly.loop.bus.sample_s
     last = planned.n_samples - 1
     if planned.k0 is not None and seconds is not None:
         last = min(last, planned.k0 + round(seconds / sample_s))
-    tape = _Tape(assembly, batch, last, signals)
-    fly(assembly, tape.shortened(batch), tape)
+    sources = {**dict.fromkeys(assembly.loop.bus.signals, "measured"), **dict.fromkeys(assembly.loop.truth, "truth")}
+    kept = [f"{source}:{name}" for name, source in sources.items() if signals is None or name in signals]
+    shown = {name: ("n_declared", "ratio", *detector.recorded) for name, detector in assembly.detectors.items()}
+    kept += [f"{detector}:{name}" for detector, names in shown.items() for name in names]
+    found = flyer.fly(_shortened(assembly, batch, last), kept).recorded
     return Recording(
         scenario=planned.name,
-        cases=tuple(int(case) for case in cases),
+        cases=tuple(batch.cases.tolist()),
         time_s=np.round(np.arange(last + 1) * sample_s, 9),
         onset_s=None if planned.k0 is None else round(planned.k0 * sample_s, 9),
-        signals=tape.signals,
-        detectors=tape.detectors,
+        signals=dict(
+            _numbered(
+                {name: found[f"{source}:{name}"] for name, source in sources.items() if f"{source}:{name}" in found}
+            )
+        ),
+        detectors={
+            name: {signal: found[f"{name}:{signal}"][:, 0] for signal in names} for name, names in shown.items()
+        },
     )
 
 
-class _Tape:
-    """Keeps what a flight shows, (n_time, n_cases) a signal."""
+def _shortened(assembly: Assembly, batch: Batch, last: int) -> Batch:
+    """The same batch, scored and flown only as far as the recording goes."""
+    named = assembly.scoring.constants.unpack(rows := batch.score_constants.copy())
+    named.last[...] = np.minimum(named.last, float(last))
+    return replace(batch, score_constants=rows)
 
-    def __init__(self, assembly: Assembly, batch: Batch, last: int, signals: Collection[str] | None) -> None:
-        self.assembly, self.last, self.kept = assembly, last, signals
-        self.shape = (last + 1, len(batch.cases))
-        self.signals: dict[str, Floats] = {}
-        # all signals from the beginning: a detector that raises leaves a gap, not a missing signal
-        self.detectors: dict[str, dict[str, Floats]] = {
-            name: {signal: np.full(self.shape, np.nan) for signal in ("n_declared", "ratio", *detector.recorded)}
-            for name, detector in assembly.detectors.items()
-        }
 
-    def shortened(self, batch: Batch) -> Batch:
-        """The same batch, scored and flown only as far as the tape goes."""
-        named = self.assembly.scoring.constants.unpack(rows := batch.score_constants.copy())
-        named.last[...] = np.minimum(named.last, float(self.last))
-        return replace(batch, score_constants=rows)
-
-    def __call__(
-        self, sample: int, measured: SimpleNamespace, truth: Mapping[str, Floats], verdicts: Mapping[str, Verdict]
-    ) -> None:
-        """Write one sample."""
-        for name, rows in self.assembly.loop.bus.signals.items():
-            if self.kept is not None and name not in self.kept:
-                continue
-            value = getattr(measured, name)
-            for i, row in enumerate(value if rows else [value]):
-                self._write(self.signals, f"{name}_{i + 1}" if rows else name, sample, row)
-        for name, value in truth.items():
-            if self.kept is None or name in self.kept:
-                self._write(self.signals, name, sample, value)
-        for detector, verdict in verdicts.items():
-            tape = self.detectors[detector]
-            self._write(tape, "n_declared", sample, total(verdict.declared))
-            self._write(tape, "ratio", sample, verdict.ratio)
-            for name, value in verdict.signals.items():
-                self._write(tape, name, sample, value)
-
-    def _write(self, tape: dict[str, Floats], name: str, sample: int, value: Floats) -> None:
-        if name not in tape:
-            tape[name] = np.full(self.shape, np.nan)
-        tape[name][sample] = value
+def _numbered(recorded: Mapping[str, Floats]) -> Iterator[tuple[str, Floats]]:
+    """Signals of one row by their names, those of several numbered from 1; (n_time, n_cases) each."""
+    for name, rows in recorded.items():
+        if rows.shape[1] == 1:
+            yield name, rows[:, 0]
+        else:
+            yield from ((f"{name}_{i + 1}", rows[:, i]) for i in range(rows.shape[1]))

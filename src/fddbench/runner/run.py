@@ -2,17 +2,22 @@
 
 import time
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Generator
 from dataclasses import dataclass
 from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
 
 from fddbench.campaign.meaning import Campaign
 from fddbench.results import manifest
 from fddbench.results.folder import claim, locked
 from fddbench.results.provenance import collect
 from fddbench.runner.assembly import assemble
-from fddbench.runner.chunks import CHUNK, Spans, cut, missing, spans
+from fddbench.runner.chunks import CHUNK, COMPILED_CHUNK, cut, missing, spans
+from fddbench.runner.flight import Flyer
 from fddbench.runner.pool import fly_all
+from fddbench.runner.work import flyer_of
 
 __all__ = ["Progress", "RunReport", "run_campaign"]
 
@@ -67,8 +72,10 @@ def run_campaign(
     *,
     jobs: int = 2,
     fresh: bool = False,
-    chunk: int = CHUNK,
+    chunk: int | None = None,
+    backend: str = "auto",
     progress: Callable[[Progress], None] | None = None,
+    notice: Callable[[str], None] | None = None,
 ) -> RunReport:
     """Fly every case of a campaign that the folder does not hold yet.
 
@@ -84,8 +91,10 @@ def run_campaign(
         Replace what the folder holds.
     chunk : int
         Cases side by side; no part of any result.
-    progress : callable
-        Told after every chunk.
+    backend : {"auto", "llvm", "numpy"}
+        ``auto`` compiles where llvmlite is installed; no part of any result.
+    progress, notice : callable
+        Told after every chunk; told what slows the run down.
 
     Raises
     ------
@@ -93,27 +102,41 @@ def run_campaign(
         The design makes no detector, the folder is another campaign's, or is being written.
     """
     begun = time.monotonic()
-    plan = assemble(campaign).plan
+    flyer = Flyer(assemble(campaign), backend)
+    plan = flyer.assembly.plan
+    _tell(flyer, notice)
     with locked(folder):
         claim(folder, files=campaign.files(), provenance=_provenance(campaign), fresh=fresh)
-        done = manifest.shards(folder, intact=True)
-        manifest.keep(folder, done)
-        left = missing(plan.n_cases, [shard.cases for shard in done])
-        statuses = Counter[str]()
-        for shard in done:
-            statuses.update(shard.statuses)
-        told = _Told(before=plan.n_cases - len(left), total=plan.n_cases, statuses=statuses, progress=progress)
-        chunks = [spans(part) for part in cut(plan, left, size=chunk, jobs=jobs)]
-        interrupted = _fly(folder, campaign, chunks, jobs=jobs, told=told)
+        left, told = _left(folder, plan.n_cases, progress)
+        size = chunk or (COMPILED_CHUNK if flyer.compiled else CHUNK)
+        chunks = [spans(part) for part in cut(plan, left, size=size, jobs=jobs)]
+        work = (str(folder), campaign.sha256, backend)
+        threads = flyer.compiled and not flyer.opaque
+        if len(left) and threads:
+            flyer_of(*work)
+        interrupted = _fly(folder, fly_all(work, chunks, jobs=jobs, threads=threads), told)
     return RunReport(
         folder=folder,
         flights=told.flown,
-        continued=plan.n_cases - len(left),
+        continued=told.before,
         total=plan.n_cases,
-        statuses=statuses,
+        statuses=told.statuses,
         interrupted=interrupted,
         wall_s=time.monotonic() - begun,
     )
+
+
+def _left(
+    folder: Path, n_cases: int, progress: Callable[[Progress], None] | None
+) -> tuple[npt.NDArray[np.int64], "_Told"]:
+    """Cases that are not there yet, and the count of those that are; shards that are damaged are struck off."""
+    done = manifest.shards(folder, intact=True)
+    manifest.keep(folder, done)
+    left = missing(n_cases, [shard.cases for shard in done])
+    statuses = Counter[str]()
+    for shard in done:
+        statuses.update(shard.statuses)
+    return left, _Told(before=n_cases - len(left), total=n_cases, statuses=statuses, progress=progress)
 
 
 @dataclass(kw_only=True)
@@ -134,9 +157,16 @@ class _Told:
             self.progress(Progress(flown=self.flown, done=done, total=self.total, statuses=self.statuses))
 
 
-def _fly(folder: Path, campaign: Campaign, chunks: Sequence[Spans], *, jobs: int, told: _Told) -> bool:
-    """Fly chunks and list their shards as they come; True when Ctrl-C came first."""
-    shards = fly_all(str(folder), campaign.sha256, chunks, jobs=jobs)
+def _tell(flyer: Flyer, notice: Callable[[str], None] | None) -> None:
+    """Say which detectors cannot be compiled, and what that costs."""
+    if notice is None or not flyer.compiled:
+        return
+    for name, reason in flyer.opaque.items():
+        notice(f"{name} cannot be compiled and flies in Python, at some 1 ms per sample and chunk: {reason}")
+
+
+def _fly(folder: Path, shards: Generator[manifest.Shard, None, None], told: _Told) -> bool:
+    """List shards as they come; True when Ctrl-C came first."""
     try:
         for shard in shards:
             manifest.append(folder, shard)

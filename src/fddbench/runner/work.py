@@ -1,16 +1,16 @@
 """What a worker does: read the frozen campaign, fly a chunk, write its shard, say what is in it."""
 
 from collections import Counter
-from collections.abc import Sequence
 from functools import lru_cache
 from pathlib import Path
+from threading import Lock
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+import pyarrow as pa
 
 from fddbench.campaign.load import read_campaign
-from fddbench.interfaces import Floats
 from fddbench.metrics.rows import Truth, event_columns, score_columns, statuses
 from fddbench.metrics.scoring import NEVER
 from fddbench.results.manifest import Shard
@@ -18,101 +18,85 @@ from fddbench.results.schema import EVENTS, rows_schema
 from fddbench.results.shards import write_table
 from fddbench.runner.assembly import Assembly, Batch, assemble, has_events
 from fddbench.runner.chunks import Spans, expand, spans
-from fddbench.runner.flight import Outcome, fly
+from fddbench.runner.flight import Flyer, Outcome
 
-__all__ = ["fly_and_write", "rows_and_events"]
+__all__ = ["fly_and_write", "flyer_of", "rows_and_events"]
 
-Row = dict[str, Any]
+Columns = dict[str, list[Any]]
 Cases = npt.NDArray[np.int64]
+
+_making = Lock()
+
+
+def flyer_of(folder: str, campaign_sha256: str, backend: str) -> Flyer:
+    """What flies a frozen campaign, made and compiled once per process."""
+    with _making:
+        return _flyer(folder, campaign_sha256, backend)
 
 
 @lru_cache(maxsize=2)
-def _assembly(folder: str, sha256: str) -> Assembly:
-    """Assembly of a frozen campaign, made once per worker."""
-    del sha256  # part of the key: a folder may be replaced under a living worker
-    return assemble(read_campaign(Path(folder) / "campaign.yaml"))
+def _flyer(folder: str, campaign_sha256: str, backend: str) -> Flyer:
+    del campaign_sha256  # part of the key: a folder may be replaced under a living worker
+    flyer = Flyer(assemble(read_campaign(Path(folder) / "campaign.yaml")), backend)
+    flyer.prepare()
+    return flyer
 
 
-def fly_and_write(folder: str, campaign_sha256: str, case_spans: Spans) -> Shard:
+def fly_and_write(folder: str, campaign_sha256: str, backend: str, case_spans: Spans) -> Shard:
     """Fly the cases and write their shard into the folder of results; everything crosses as plain data."""
-    assembly = _assembly(folder, campaign_sha256)
     cases = expand(case_spans)
-    rows, events = rows_and_events(assembly, cases)
+    rows, events = rows_and_events(flyer_of(folder, campaign_sha256, backend), cases)
     name = f"{cases[0]:08d}-{cases[-1]:08d}-{len(cases)}.parquet"
     path = Path(folder)
-    schema = rows_schema([parameter.name for parameter in assembly.plan.benchmark.parameters])
-    events_sha256 = write_table(path / "events" / name, events, EVENTS) if events else None
+    events_sha256 = write_table(path / "events" / name, events) if len(events) else None
     return Shard(
         cases=spans(cases),
         rows=f"rows/{name}",
-        rows_sha256=write_table(path / "rows" / name, rows, schema),
-        events=f"events/{name}" if events else None,
+        rows_sha256=write_table(path / "rows" / name, rows),
+        events=f"events/{name}" if len(events) else None,
         events_sha256=events_sha256,
-        statuses=dict(sorted(Counter(row["status"] for row in rows).items())),
+        statuses=dict(sorted(Counter(rows["status"].to_pylist()).items())),
     )
 
 
-def rows_and_events(assembly: Assembly, cases: Cases) -> tuple[list[Row], list[Row]]:
+def rows_and_events(flyer: Flyer, cases: Cases) -> tuple[pa.Table, pa.Table]:
     """Rows and events of cases, case by case and detector by detector."""
+    assembly = flyer.assembly
     batch = assembly.batch(cases)
-    feasible = np.flatnonzero([reason == "" for reason in batch.infeasible_reason])
-    flown = batch.take(feasible)
-    outcome = fly(assembly, flown) if len(feasible) else None
-    rows: list[Row] = []
-    events: list[Row] = []
-    grounded = batch.take(np.setdiff1d(np.arange(len(cases)), feasible))
+    able = np.array([reason == "" for reason in batch.infeasible_reason], dtype=bool)
+    flown, grounded = batch.take(np.flatnonzero(able)), batch.take(np.flatnonzero(~able))
+    outcome = flyer.fly(flown) if able.any() else None
+    schema = rows_schema([parameter.name for parameter in assembly.plan.benchmark.parameters])
+    parts: list[pa.Table] = []
+    events: list[dict[str, Any]] = []
     for detector in assembly.detectors:
-        if outcome is not None:
-            scored = _scored(assembly, outcome, detector)
-            rows += scored
-            events += _events(assembly, flown, outcome, detector, scored)
-        left = _infeasible(assembly, grounded, detector)
-        rows += left
-        events += _events(assembly, grounded, None, detector, left)
+        for mine, result in ((flown, outcome), (grounded, None)):
+            if len(mine.cases):
+                columns = _columns(assembly, mine, result, detector)
+                parts.append(pa.Table.from_pydict(columns, schema=schema))
+                events += _events(assembly, mine, result, detector, columns)
+    rows = pa.concat_tables(parts)
     order = {name: i for i, name in enumerate(assembly.detectors)}
-    return sorted(rows, key=lambda row: (row["case"], order[row["detector"]])), events
+    rank = np.array([order[name] for name in rows["detector"].to_pylist()], dtype=np.int64)
+    in_order = np.lexsort((rank, rows["case"].to_numpy()))
+    return rows.take(pa.array(in_order)).combine_chunks(), pa.Table.from_pylist(events, schema=EVENTS)
 
 
-def _scored(assembly: Assembly, outcome: Outcome, detector: str) -> list[Row]:
-    """Rows of one detector on the flights that were flown."""
-    batch, scoring, score = outcome.batch, assembly.scoring, outcome.scores[detector]
+def _columns(assembly: Assembly, batch: Batch, outcome: Outcome | None, detector: str) -> Columns:
+    """Rows of one detector by columns; without an outcome the flights are infeasible and nobody is scored."""
+    n_cases = len(batch.cases)
+    score = assembly.scoring.start(n_cases) if outcome is None else outcome.scores[detector]
+    departed = np.full(n_cases, NEVER) if outcome is None else outcome.departed
+    errors = (outcome.errors.get(detector) if outcome else None) or [""] * n_cases
     status, reason = statuses(
-        scoring,
+        assembly.scoring,
         score,
         batch.score_constants,
-        departed=outcome.departed,
+        departed=departed,
         infeasible=batch.infeasible_reason,
-        errors=outcome.errors.get(detector, [""] * len(batch.cases)),
+        errors=errors,
     )
-    return _rows(assembly, batch, detector, score=score, departed=outcome.departed, status=status, reason=reason)
-
-
-def _infeasible(assembly: Assembly, batch: Batch, detector: str) -> list[Row]:
-    """Rows of the flights that cannot be flown: nobody failed, nobody is scored."""
-    n_cases = len(batch.cases)
-    return _rows(
-        assembly,
-        batch,
-        detector,
-        score=assembly.scoring.start(n_cases),
-        departed=np.full(n_cases, NEVER),
-        status=["infeasible"] * n_cases,
-        reason=list(batch.infeasible_reason),
-    )
-
-
-def _rows(
-    assembly: Assembly,
-    batch: Batch,
-    detector: str,
-    *,
-    score: Floats,
-    departed: Floats,
-    status: list[str],
-    reason: Sequence[str | None],
-) -> list[Row]:
-    """Rows of one detector: which flight, how it went, what it scored."""
-    columns = score_columns(
+    scores = score_columns(
         assembly.scoring,
         score,
         batch.score_constants,
@@ -122,9 +106,7 @@ def _rows(
         departed=departed,
         sample_s=assembly.loop.bus.sample_s,
     )
-    columns |= {"status": list(status), "reason": list(reason)}
-    scores = [dict(zip(columns, values, strict=True)) for values in zip(*columns.values(), strict=True)]
-    return [who | score for who, score in zip(_who(assembly, batch, detector), scores, strict=True)]
+    return _who(assembly, batch, detector) | {"status": status, "reason": reason} | scores
 
 
 def _truth(assembly: Assembly, batch: Batch) -> Truth:
@@ -132,53 +114,42 @@ def _truth(assembly: Assembly, batch: Batch) -> Truth:
     return Truth(faulty_sites=[p.faulty_sites for p in planned], limit_s=[p.limit_s for p in planned])
 
 
-def _who(assembly: Assembly, batch: Batch, detector: str) -> list[Row]:
+def _who(assembly: Assembly, batch: Batch, detector: str) -> Columns:
     """The columns that say which flight a row is of."""
-    found = []
-    for i, case in enumerate(batch.cases):
-        planned = assembly.plan.scenarios[batch.scenario[i]]
-        row: Row = {
-            "case": int(case),
-            "scenario": planned.name,
-            "manoeuvre": planned.manoeuvre,
-            "fault": "+".join(fault.kind for fault in planned.faults) or None,
-            "run": int(batch.run[i]),
-            "detector": detector,
-        }
-        found.append(row | {f"p_{name}": float(values[i]) for name, values in batch.parameters.items()})
-    return found
+    planned = [assembly.plan.scenarios[s] for s in batch.scenario]
+    columns: Columns = {
+        "case": batch.cases.tolist(),
+        "scenario": [p.name for p in planned],
+        "manoeuvre": [p.manoeuvre for p in planned],
+        "fault": ["+".join(fault.kind for fault in p.faults) or None for p in planned],
+        "run": batch.run.tolist(),
+        "detector": [detector] * len(planned),
+    }
+    return columns | {f"p_{name}": values.tolist() for name, values in batch.parameters.items()}
 
 
-def _events(assembly: Assembly, batch: Batch, outcome: Outcome | None, detector: str, rows: list[Row]) -> list[Row]:
+def _events(
+    assembly: Assembly, batch: Batch, outcome: Outcome | None, detector: str, columns: Columns
+) -> list[dict[str, Any]]:
     """Events of one detector: one per case and fault of scenarios whose faults are scored one by one."""
-    sample_s = assembly.loop.bus.sample_s
-    found: list[Row] = []
-    for i, row in enumerate(rows):
-        planned = assembly.plan.scenarios[batch.scenario[i]]
-        for number, fault in enumerate(planned.faults if has_events(planned) else ()):
-            times: Row = {}
+    found: list[dict[str, Any]] = []
+    shared = ("case", "scenario", "run", "detector", "status", "reason")
+    for i, position in enumerate(batch.scenario):
+        planned = assembly.plan.scenarios[position]
+        if not has_events(planned):
+            continue
+        row = {name: columns[name][i] for name in shared}
+        end = float(planned.n_samples - 1)
+        if outcome is not None:
+            end = min(end, float(outcome.departed[i]) - 1.0)
+        for number, fault in enumerate(planned.faults):
+            times: dict[str, Any] = {}
             if outcome is not None and row["status"] == "ok":
-                end = min(float(planned.n_samples - 1), float(outcome.departed[i]))
                 times = event_columns(
                     assembly.scoring, outcome.scores[detector], batch.score_constants,
-                    case=i, event=number, limit_s=planned.event_limits_s[number], end=end, sample_s=sample_s,
+                    case=i, event=number, limit_s=planned.event_limits_s[number], end=end,
+                    sample_s=assembly.loop.bus.sample_s,
                 )  # fmt: skip
             what = {"event": number + 1, "fault": fault.kind, "sites": "+".join(fault.sites)}
-            found.append(row | what | {"onset_s": fault.onset_s, "end_s": fault.end_s} | _own(times))
+            found.append(row | what | {"onset_s": fault.onset_s, "end_s": fault.end_s} | times)
     return found
-
-
-_TIMES = (
-    "first_alarm_time_s",
-    "detection_time_s",
-    "detection_time_limit_s",
-    "normalized_detection_time",
-    "detected",
-    "missed",
-    "censored",
-)
-
-
-def _own(times: Row) -> Row:
-    """Times of the event in place of those of the whole flight; nulls where there are none."""
-    return {name: times.get(name) for name in _TIMES}

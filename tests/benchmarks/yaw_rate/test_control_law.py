@@ -40,7 +40,6 @@ def test_gains_are_those_of_the_stated_design_within_4_percent():
     np.testing.assert_allclose(GAINS, redesign(), rtol=0.04)
 
 
-@pytest.mark.xfail(reason="the gains in the source are off by up to 3.3 % (r to aileron); phi, p and r columns")
 def test_gains_are_those_of_the_stated_design_to_4_digits():
     np.testing.assert_allclose(GAINS, redesign(), rtol=1e-4, atol=5e-5)
 

@@ -27,8 +27,8 @@ Q_DIAGONAL = (
 )
 R_DIAGONAL = (1 / 5.0**2, 1 / 2.0**2)
 # on phi [rad], V_y [m/s], p [rad/s], r [rad/s], integral of phi [rad s]; in deg of surface
-AILERON_GAINS = (94.3526, -0.4748, 37.9427, 37.3931, 34.7426)
-RUDDER_GAINS = (-10.3165, 0.1759, -1.1808, -74.5218, -3.4657)
+AILERON_GAINS = (94.0916, -0.4733, 37.5182, 36.2070, 34.7496)
+RUDDER_GAINS = (-10.2657, 0.1755, -1.1810, -74.1917, -3.4597)
 _DAMPER_DEG = 5.0
 """Authority of the yaw damper: what the yaw rate alone may ask of the rudder [deg]."""
 _SPOILER_FROM_DEG, _SPOILER_RATIO = 10.0, 1.0

@@ -78,7 +78,7 @@ class Observer:
         """Injection ``nu = -K P_o e / (|P_o e| + delta)`` with e after the injection, (4, n_cases).
 
         Newton's method on ``f(s) = |P_o e(s)| - s`` with ``e_i(s) = e*_i (s + delta) / (s + delta + T K_i P_o,i)``, which
-        is concave; from the exact solution for equal gains three steps reach rounding error.
+        is concave; from the exact solution for equal gains three steps leave 1e-14 at 10 ms and 3e-10 at 40 ms.
         """
         delta, c = self.gains.delta, self.sample_s * self.k * self.p_o
         weighted = self.p_o * predicted_error

@@ -1,0 +1,28 @@
+"""Where results come from: program, libraries, machine, campaign."""
+
+import platform
+from collections.abc import Mapping
+from datetime import UTC, datetime
+from importlib.metadata import version
+
+from fddbench.results.schema import SCHEMA_VERSION
+
+__all__ = ["collect"]
+
+_LIBRARIES = ("numpy", "scipy", "pandas", "pyarrow", "joblib")
+
+
+def collect(*, campaign: str, campaign_sha256: str, designs_sha256: Mapping[str, str], seed: int) -> dict[str, object]:
+    """Provenance of a run that begins now; plain data for a JSON file."""
+    return {
+        "campaign": campaign,
+        "campaign_sha256": campaign_sha256,
+        "designs_sha256": dict(designs_sha256),
+        "seed": seed,
+        "schema_version": SCHEMA_VERSION,
+        "fddbench": version("fddbench"),
+        "python": platform.python_version(),
+        "libraries": {name: version(name) for name in _LIBRARIES},
+        "system": f"{platform.system()} {platform.machine()}",
+        "begun": datetime.now(UTC).isoformat(timespec="seconds"),
+    }

@@ -1,0 +1,58 @@
+"""Reads the tables of a folder of results, by its manifest."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+import pyarrow as pa
+
+from fddbench.errors import ResultsError
+from fddbench.results.folder import provenance_of
+from fddbench.results.manifest import shards
+from fddbench.results.schema import EVENTS
+from fddbench.results.shards import read_table
+
+__all__ = ["load", "load_events"]
+
+
+def load(folder: str | Path) -> pd.DataFrame:
+    """Rows of a campaign, one per case and detector, in the order of cases and of the campaign's detectors.
+
+    Arrow-backed, so that null stays null; the columns explain themselves in ``fddbench.results.schema``.
+
+    Raises
+    ------
+    ResultsError
+        No folder of results, or a shard that is damaged.
+    """
+    path = Path(folder)
+    tables = _tables(path, "rows")
+    if not tables:
+        raise ResultsError(f"{path} holds no rows yet; run the campaign first")
+    return _sorted(pa.concat_tables(tables), path, ["case"])
+
+
+def load_events(folder: str | Path) -> pd.DataFrame:
+    """Events of a campaign, one per case, detector and fault of scenarios with several or ending faults; may be empty."""
+    path = Path(folder)
+    return _sorted(pa.concat_tables([EVENTS.empty_table(), *_tables(path, "events")]), path, ["case", "event"])
+
+
+def _tables(folder: Path, which: str) -> Sequence[pa.Table]:
+    provenance_of(folder)
+    found = []
+    for shard in shards(folder):
+        name, sha256 = getattr(shard, which), getattr(shard, f"{which}_sha256")
+        if name is not None:
+            found.append(read_table(folder / name, sha256))
+    return found
+
+
+def _sorted(table: pa.Table, folder: Path, by: list[str]) -> pd.DataFrame:
+    frame: pd.DataFrame = table.to_pandas(types_mapper=pd.ArrowDtype)
+    order: Any = provenance_of(folder).get("designs_sha256")
+    position = {name: i for i, name in enumerate(order)} if isinstance(order, dict) else {}
+    rank = frame["detector"].map(position).astype("int64")
+    keyed = frame.assign(_rank=rank).sort_values([by[0], "_rank", *by[1:]], kind="stable")
+    return keyed.drop(columns="_rank").reset_index(drop=True)

@@ -1,0 +1,89 @@
+"""What a detector costs on a flight computer: its step counted, and timed on this machine."""
+
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+from fddbench.blocks import kernel, llvm
+from fddbench.blocks.accounting import Cost, cost
+from fddbench.blocks.layout import Layout, Rows
+from fddbench.blocks.program import trace
+from fddbench.interfaces import Bus, Detector
+from fddbench.runner.fused import detector_program, why_opaque
+
+__all__ = ["DetectorLoad", "detector_load", "in_words"]
+
+_CASES, _SAMPLES, _REPEATS = 256, 500, 5
+
+
+@dataclass(frozen=True, kw_only=True)
+class DetectorLoad:
+    """Load of one step of a detector.
+
+    Attributes
+    ----------
+    cost : Cost or None
+        Operations, state and tables; None for a detector that cannot be traced.
+    nanoseconds : float or None
+        Time of a step of one flight in compiled code on this machine [ns], the fastest of several; None without a compiler.
+    opaque : str
+        Why it cannot be traced; "" when it can.
+    """
+
+    cost: Cost | None
+    nanoseconds: float | None
+    opaque: str = ""
+
+
+def detector_load(detector: Detector, bus: Bus, *, timed: bool = True) -> DetectorLoad:
+    """Count the operations of one step, and time it unless told not to."""
+    reason = why_opaque(detector, bus)
+    if reason:
+        return DetectorLoad(cost=None, nanoseconds=None, opaque=reason)
+    nanoseconds = _nanoseconds(detector, bus) if timed and llvm.available() else None
+    program = detector_program(detector, bus).keep("state", "declared", "ratio")
+    return DetectorLoad(cost=cost(program), nanoseconds=nanoseconds)
+
+
+def _nanoseconds(detector: Detector, bus: Bus) -> float:
+    """Time of one step of one flight [ns], on signals that change with every sample and case."""
+    signals = Layout(**bus.signals)
+
+    def step(state: Rows, constants: Rows, normals: Rows, sample: Any) -> Mapping[str, Rows]:
+        del normals
+        moving = constants + 1e-3 * sample
+        after, verdict = detector.step(state, SimpleNamespace(**vars(signals.unpack(moving))))
+        # the verdict must be part of the state, or it would not be computed
+        return {"state": np.concatenate([after, verdict.declared, verdict.ratio[np.newaxis]])}
+
+    extra = len(bus.sites) + 1
+    program = trace(
+        lambda state, **rest: step(state[: detector.states.size], **rest),
+        state=detector.states.size + extra, constants=signals.size, normals=0, sample=0,
+    )  # fmt: skip
+    compiled = kernel.build(program, backend="llvm")
+    state = np.concatenate([detector.start(_CASES), np.zeros((extra, _CASES))])
+    constants = 0.01 * np.arange(1.0, signals.size + 1.0)[:, np.newaxis] + 1e-4 * np.arange(_CASES)
+    samples = np.full(_CASES, _SAMPLES, dtype=np.int64)
+    addresses = kernel.Addresses(key=0, run=0, flight=0, scenario=0)
+    best = np.inf
+    for _ in range(_REPEATS):
+        begun = time.perf_counter()
+        compiled.fly(state, constants, samples, addresses, first=0, end=_SAMPLES)
+        best = min(best, time.perf_counter() - begun)
+    return best / (_CASES * _SAMPLES) * 1e9
+
+
+def in_words(load: DetectorLoad) -> str:
+    """Load of a step in one line."""
+    if load.cost is None:
+        return f"opaque, runs in Python: {load.opaque}"
+    timed = "" if load.nanoseconds is None else f"; {load.nanoseconds:.0f} ns in compiled code here"
+    return (
+        f"{load.cost.flops} floating-point operations a step, {load.cost.multiply_adds} of them multiply-add pairs; "
+        f"state {load.cost.state_bytes} B, tables {load.cost.table_bytes} B{timed}"
+    )
