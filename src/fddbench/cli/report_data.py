@@ -10,7 +10,7 @@ import yaml
 
 from fddbench.campaign.load import read_campaign
 from fddbench.reporting.page import ReportData
-from fddbench.reporting.published import published_for
+from fddbench.reporting.published import iterations_for, published_for
 from fddbench.results.folder import provenance_of
 from fddbench.results.table import load, load_events
 from fddbench.runner.assembly import assemble
@@ -71,6 +71,8 @@ def report_data(folder: Path) -> ReportData:
         ],
         recordings=list(replay(folder, chosen, seconds=_seconds(rows), signals=assembly.plan.benchmark.shown)),
         published=published_for(content),
+        iterations=iterations_for(content),
+        limits_from=assembly.plan.benchmark.limits_from,
     )
 
 
