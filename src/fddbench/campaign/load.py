@@ -4,6 +4,7 @@ import json
 import re
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from pydantic import ValidationError
 
@@ -146,7 +147,7 @@ def _meaning(
     designs: tuple[Design, ...],
     benchmark: Benchmark,
 ) -> Campaign:
-    choices = {key: getattr(written, key) or default_choice(benchmark, key) for key in CHOICES}
+    choices: dict[str, Any] = {key: getattr(written, key) or default_choice(benchmark, key) for key in CHOICES}
     scenarios = tuple(
         Scenario(
             name=entry.name,

@@ -47,12 +47,12 @@ class ReferenceEntry(Strict):
 
     def system(self) -> StateSpace:
         """Return it as a system."""
-        given = [row for row in (self.a, self.b, self.c) if row is not None]
-        if not given:
-            return StateSpace.gain(np.diag(self.d))
-        if len(given) < 3 or {len(row) for row in given} != {len(self.d)}:
+        a, b, c, d = self.a, self.b, self.c, self.d
+        if a is None and b is None and c is None:
+            return StateSpace.gain(np.diag(d))
+        if a is None or b is None or c is None or not len(a) == len(b) == len(c) == len(d):
             raise DesignError("a reference has d alone, or a, b, c and d of one length")
-        return StateSpace.diagonal(*given, self.d)
+        return StateSpace.diagonal(a, b, c, d)
 
 
 class Recipe(Strict):
@@ -186,7 +186,7 @@ def _exact_inverse(plant: UncertainPlant) -> Filter:
     """Observer driven by its own residual ``r = Df⁻¹ (y - C x̂ - D u)``: the faults themselves, if plant and model agree."""
     if plant.Df.shape[0] != plant.Df.shape[1] or np.linalg.matrix_rank(plant.Df) < len(plant.Df):
         raise DesignError(f"an exact inverse needs a regular square Df, this one is {plant.Df.shape}")
-    back = np.linalg.inv(plant.Df)
+    back = np.asarray(np.linalg.inv(plant.Df), dtype=np.float64)
     return Filter(
         Ak=plant.A - plant.Bf @ back @ plant.C, Bky=plant.Bf @ back, Bku=plant.B - plant.Bf @ back @ plant.D,
         Ck=-back @ plant.C, Dky=back, Dku=-back @ plant.D,

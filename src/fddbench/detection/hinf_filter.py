@@ -20,7 +20,10 @@ Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 NonNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
 Matrix = tuple[tuple[Number, ...], ...]
 
-_SIDES = {"A": "xx", "B_y": "xy", "B_u": "xu", "C": "rx", "D_y": "ry", "D_u": "ru"}
+_SIDES = {
+    "A": ("x", "x"), "B_y": ("x", "y"), "B_u": ("x", "u"), "C": ("r", "x"), "D_y": ("r", "y"), "D_u": ("r", "u"),
+}  # fmt: skip
+"""Rows and columns of each matrix: states, residuals, outputs y and inputs u."""
 
 
 class HinfFilterGains(BaseModel):

@@ -46,7 +46,8 @@ class Scoring:
         self.constants = Layout(k0=0, n_faulty=0, last=0, **{f"event_{j}": event.size for j in range(n_events)})
         self.states = Layout(
             first_alarm=0, detection=0, over_declared=0, false_alarm=0, margin_healthy=0, margin_faulty=0, nonfinite=0,
-            declared=n_sites, **{f"{name}_{j}": 0 for j in range(n_events) for name in ("event_alarm", "event_detection", "early")},
+            declared=n_sites,
+            **{f"{name}_{j}": 0 for j in range(n_events) for name in ("event_alarm", "event_detection", "early")},
         )  # fmt: skip
 
     def rows(self, *, k0: float, n_faulty: int, last: float, events: Sequence[EventTimes], n_cases: int) -> Floats:

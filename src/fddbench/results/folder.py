@@ -13,7 +13,7 @@ from fddbench.results.shards import write_bytes
 
 __all__ = ["claim", "locked", "provenance_of"]
 
-_OURS = ("campaign.yaml", "detectors", "manifest.jsonl", "provenance.json", "rows", "events")
+_OURS = ("campaign.yaml", "detectors", "manifest.jsonl", "provenance.json", "rows", "events", "report.html")
 
 
 def claim(folder: Path, *, files: Mapping[str, str], provenance: Mapping[str, object], fresh: bool) -> bool:
