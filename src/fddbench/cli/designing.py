@@ -5,8 +5,6 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-
 from fddbench.errors import DesignError, FddbenchError
 
 __all__ = ["design", "tune"]
@@ -36,6 +34,8 @@ def tune(args: argparse.Namespace) -> int:
 
     Writes a new design that says what it was tuned on.
     """
+    import numpy as np
+
     from fddbench.campaign.designs import find_design, read_design
     from fddbench.campaign.load import find_campaign, read_campaign
     from fddbench.campaign.yaml_nodes import read_yaml
