@@ -1,4 +1,4 @@
-"""Hypothesis here: the same examples every time, and no deadline on a shared machine."""
+"""Hypothesis everywhere: the same examples every time, and no deadline on a shared machine."""
 
 from hypothesis import settings
 
