@@ -46,7 +46,10 @@ def _of_events(own: pd.DataFrame) -> list[Cell]:
     good = ~_true(own, "missed") & ~_true(own, "censored") & ~_true(own, "false_alarm")
     time_s = own["detection_time_s"].to_numpy(dtype=np.float64, na_value=np.nan)
     found = time_s[~np.isnan(time_s)]
-    return [_share(int(good.sum()), len(own)), Cell(seconds(np.median(found) if len(found) else None))]
+    return [
+        _share(int(good.sum()), len(own)),
+        Cell(seconds(np.quantile(found, 0.5, method="inverted_cdf") if len(found) else None)),
+    ]
 
 
 def _share(hits: int, trials: int) -> Cell:

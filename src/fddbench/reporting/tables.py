@@ -163,7 +163,7 @@ def _events(flown: pd.DataFrame) -> Iterator[list[Cell]]:
             Cell(count(flags["missed"])),
             Cell(count(flags["censored"])),
             Cell(count(flags["false_alarm"]), alarm=flags["false_alarm"] > 0),
-            Cell(seconds(np.median(time_s) if len(time_s) else None)),
+            Cell(seconds(np.quantile(time_s, 0.5, method="inverted_cdf") if len(time_s) else None)),
             Cell(seconds(np.max(time_s) if len(time_s) else None)),
         ]
 
