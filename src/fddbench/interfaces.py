@@ -7,7 +7,7 @@ see ``blocks`` for the operations it may use. It runs on many flights at once an
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from types import SimpleNamespace
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 import numpy.typing as npt
@@ -18,6 +18,7 @@ __all__ = [
     "Benchmark",
     "Bus",
     "Detector",
+    "FaultUnits",
     "Flights",
     "Floats",
     "Loop",
@@ -25,6 +26,7 @@ __all__ = [
     "Parameter",
     "Recording",
     "Start",
+    "Tunable",
     "Verdict",
     "Voter",
 ]
@@ -89,6 +91,17 @@ class Detector(Protocol):
         ...
 
 
+@runtime_checkable
+class Tunable(Detector, Protocol):
+    """A detector whose thresholds ``fddbench tune`` can choose; its ``Gains`` have ``thresholds``, one per signal.
+
+    It alarms when one of the `evaluated` signals has stayed above its threshold for `confirm_samples` samples.
+    """
+
+    evaluated: tuple[str, ...]
+    confirm_samples: float
+
+
 class Voter(Protocol):
     """Makes one signal of redundant sensors; a class without arguments registered under ``fddbench.voters``."""
 
@@ -119,8 +132,25 @@ class Parameter:
 
 
 @dataclass(frozen=True, kw_only=True)
+class FaultUnits:
+    """What the sizes of faults mean on a benchmark.
+
+    Attributes
+    ----------
+    unit : {"deg/s", ""}
+        Unit of the fault sites, carried by the keys of a campaign; "": plain numbers, keys ``amplitude``, ``rate_per_s``.
+    admissible, sensor_range : float
+        In this unit: what percent is of, and where a runaway stops (infinite: nowhere).
+    """
+
+    unit: str
+    admissible: float
+    sensor_range: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class Options:
-    """The choices of a campaign that a benchmark builds its loop from."""
+    """The choices of a campaign that a benchmark builds its loop from; "" where the benchmark has none to offer."""
 
     plant: str
     voter: str
@@ -196,7 +226,11 @@ class Loop(Protocol):
 
 
 class Benchmark(Protocol):
-    """An aircraft or engine with its fault sites, manoeuvres and requirements; registered under ``fddbench.benchmarks``."""
+    """An aircraft or engine with its fault sites, manoeuvres and requirements; registered under ``fddbench.benchmarks``.
+
+    Of `plants`, `voters`, `sensors` and `winds` the first is the default; empty where there is nothing to choose.
+    `shown` names the signals in the pictures of the report, `limits_from` says where the time limits come from.
+    """
 
     name: str
     about: str
@@ -208,8 +242,9 @@ class Benchmark(Protocol):
     sensors: tuple[str, ...]
     winds: tuple[str, ...]
     manoeuvres: Mapping[str, float]
-    admissible_range_deg_s: float
-    sensor_range_deg_s: float
+    fault_units: FaultUnits
+    shown: tuple[str, ...]
+    limits_from: str
 
     def detection_time_limit_s(self, n_faulty: int) -> float:
         """Requirement by number of faulty sites [s]."""

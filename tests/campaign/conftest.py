@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from fddbench import gallery, registry
 from fddbench.blocks.layout import Layout
 from fddbench.errors import DesignError, FddbenchError
-from fddbench.interfaces import Bus, Parameter
+from fddbench.interfaces import Bus, FaultUnits, Parameter
 
 
 class Toy:
@@ -29,8 +29,7 @@ class Toy:
     sensors = ("white",)
     winds = ("none", "gust")
     manoeuvres: ClassVar = {"cruise": 60.0, "roll_doublet": 40.0}
-    admissible_range_deg_s = 40.0
-    sensor_range_deg_s = 40.0
+    fault_units = FaultUnits(unit="deg/s", admissible=40.0, sensor_range=40.0)
 
     def detection_time_limit_s(self, n_faulty):
         limits = {1: 120.0, 2: 0.36}

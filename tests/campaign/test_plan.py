@@ -46,7 +46,7 @@ def test_the_scenario_s_duration_and_limit_win(write):
 
 def test_two_faults_have_their_own_limits_and_a_common_one(write):
     jam = plan(read_campaign(write(**{TWO: LATE}), ["duration_s=20"])).scenarios[1]
-    assert (jam.k0, jam.limit_s, jam.event_limits_s, jam.faulty_sites) == (400, 0.36, (120.0, 120.0), ("r1", "r2"))
+    assert (jam.k0, jam.limit_s, jam.event_limits_s, jam.faulty_sites) == (400, 5.36, (120.0, 120.0), ("r1", "r2"))
 
 
 def test_delay_prolongs_the_flight(write):

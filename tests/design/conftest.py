@@ -6,20 +6,18 @@ import numpy as np
 import pytest
 import yaml
 
+from fddbench.benchmarks.jet_engine import plant
 from fddbench.design.norms import hinf_norm
 from fddbench.design.robust_hinf import synthesize
 from fddbench.design.systems import StateSpace, UncertainPlant
 
-DATA = yaml.safe_load((Path(__file__).parent / "jet_engine.yaml").read_text())
+DATA = yaml.safe_load((Path(plant.__file__).parent / "data" / "jet_engine.yaml").read_text())
 
 
 @pytest.fixture(scope="session")
 def engine() -> UncertainPlant:
     """The jet engine of section 5 with its unstructured Δ."""
-    names = {"A": "Ao", "B": "Bo", "C": "Co", "D": "Do"} | {
-        name: name for name in ("Bf", "Bd", "Df", "Dd", "FA", "FC", "EA", "Ef", "Ed", "EB", "H")
-    }
-    return UncertainPlant(**{name: np.array(DATA[key], dtype=float) for name, key in names.items()})
+    return UncertainPlant(**plant.MATRICES)
 
 
 @pytest.fixture(scope="session")

@@ -13,10 +13,10 @@ from fddbench.faults.noise import Noise
 from fddbench.faults.nrz import Nrz
 from fddbench.faults.oscillatory import Oscillatory
 from fddbench.faults.runaway import Runaway
-from fddbench.faults.specification import SensorUnits
+from fddbench.interfaces import FaultUnits
 
 SITES = ("r1", "r2", "r3")
-UNITS = SensorUnits(admissible_deg_s=40.0, sensor_range_deg_s=128.0)
+UNITS = FaultUnits(unit="deg/s", admissible=40.0, sensor_range=128.0)
 N = 60
 T = 0.01
 KINDS = {

@@ -12,31 +12,32 @@ from fddbench.faults.noise import Noise
 from fddbench.faults.nrz import Nrz
 from fddbench.faults.oscillatory import Oscillatory
 from fddbench.faults.runaway import Runaway
-from fddbench.faults.specification import FaultWave, SensorUnits, one_of
+from fddbench.faults.specification import FaultWave, one_of
+from fddbench.interfaces import FaultUnits
 
-UNITS = SensorUnits(admissible_deg_s=40.0, sensor_range_deg_s=128.0)
+UNITS = FaultUnits(unit="deg/s", admissible=40.0, sensor_range=128.0)
 WHERE = {"sites": ("r1", "r2"), "onset_s": 2.0}
 
 # kind, percent sizes, the same sizes in units at an admissible range of 40 deg/s, and the wave they make
 SIZES = (
-    (Bias, "bias", {"amplitude_percent": 5.0}, {"amplitude_deg_s": 2.0}, {"offset_deg_s": 2.0}),
-    (Jam, "jam", {"amplitude_percent": 1.25}, {"amplitude_deg_s": 0.5}, {"offset_deg_s": 0.5}),
-    (Runaway, "runaway", {"rate_percent_s": 2.5}, {"rate_deg_s2": 1.0}, {"rate_deg_s2": 1.0, "clip_deg_s": 128.0}),
-    (Nrz, "nrz", {"amplitude_percent": 320.0}, {"amplitude_deg_s": 128.0}, {"bit_deg_s": 128.0, "bit_s": 0.05}),
-    (Noise, "noise", {"variance_percent": 1.25}, {"variance_deg2_s2": 0.5}, {"sigma_deg_s": math.sqrt(0.5)}),
+    (Bias, "bias", {"amplitude_percent": 5.0}, {"amplitude_deg_s": 2.0}, {"offset": 2.0}),
+    (Jam, "jam", {"amplitude_percent": 1.25}, {"amplitude_deg_s": 0.5}, {"offset": 0.5}),
+    (Runaway, "runaway", {"rate_percent_s": 2.5}, {"rate_deg_s2": 1.0}, {"rate": 1.0, "clip": 128.0}),
+    (Nrz, "nrz", {"amplitude_percent": 320.0}, {"amplitude_deg_s": 128.0}, {"bit": 128.0, "bit_s": 0.05}),
+    (Noise, "noise", {"variance_percent": 1.25}, {"variance_deg2_s2": 0.5}, {"sigma": math.sqrt(0.5)}),
     (
         Drift,
         "drift",
         {"rate_percent_s": 1.0, "amplitude_percent": 5.0},
         {"rate_deg_s2": 0.4, "amplitude_deg_s": 2.0},
-        {"rate_deg_s2": 0.4, "ramp_limit_deg_s": 2.0},
+        {"rate": 0.4, "ramp_limit": 2.0},
     ),
     (
         Oscillatory,
         "oscillatory",
         {"amplitude_percent": 3.75, "frequency_hz": 0.5},
         {"amplitude_deg_s": 1.5, "frequency_rad_s": math.pi},
-        {"amplitude_deg_s": 1.5, "frequency_rad_s": math.pi},
+        {"amplitude": 1.5, "frequency_rad_s": math.pi},
     ),
 )
 names = [entry[1] for entry in SIZES]
@@ -133,6 +134,6 @@ def test_one_of_takes_a_zero_for_a_value():
                                               ({"hold_value_percent": 5.0}, 2.0)])  # fmt: skip
 def test_replace_drops_the_healthy_signal(hold, offset):
     wave = Nrz(kind="nrz", **WHERE, mode="replace", amplitude_deg_s=1.0, **hold).wave(UNITS)
-    assert (wave.keep, wave.hold, wave.hold_value_deg_s, wave.offset_deg_s) == (0.0, 0.0, offset, 0.0)
+    assert (wave.keep, wave.hold, wave.hold_value, wave.offset) == (0.0, 0.0, offset, 0.0)
     wave = Nrz(kind="nrz", **WHERE, mode="replace", amplitude_deg_s=1.0, freeze=True).wave(UNITS)
-    assert (wave.keep, wave.hold, wave.offset_deg_s) == (0.0, 1.0, 0.0)
+    assert (wave.keep, wave.hold, wave.offset) == (0.0, 1.0, 0.0)

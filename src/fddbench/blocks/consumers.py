@@ -7,6 +7,7 @@ from typing import Final
 
 __all__ = [
     "DISPERSION",
+    "DISTURBANCE",
     "FAULT_SLOTS",
     "FAULT_SLOT_0",
     "GUST",
@@ -14,6 +15,7 @@ __all__ = [
     "SENSORS_A",
     "SENSORS_B",
     "START",
+    "UNCERTAINTY_0",
 ]
 
 SENSORS_A: Final = 0
@@ -24,6 +26,10 @@ GUST: Final = 2
 """Turbulence of a sample."""
 START: Final = 3
 """What is random before the first sample; 3..31 are reserved for the flight itself."""
+UNCERTAINTY_0: Final = 4
+"""Uncertain dynamics of a flight, first four numbers; the next ones follow: 4..9."""
+DISTURBANCE: Final = 10
+"""Disturbances of a sample, at most four."""
 
 FAULT_SLOT_0: Final = 64
 """First fault of a scenario, the next ones follow: 64..95."""

@@ -9,6 +9,7 @@ from fddbench.campaign.designs import Design
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.model import Dispersions, Distribution
 from fddbench.campaign.plan import Plan, PlannedScenario
+from fddbench.campaign.references import CHOICES
 from fddbench.faults.specification import FaultSpecification
 
 __all__ = ["describe", "estimated_seconds"]
@@ -55,10 +56,8 @@ def _head(campaign: Campaign) -> Iterator[str]:
     yield f"Campaign {campaign.name} ({campaign.path})"
     if campaign.about:
         yield fill(" ".join(campaign.about.split()), _WIDTH, initial_indent="  ", subsequent_indent="  ")
-    yield (
-        f"Benchmark {campaign.benchmark}, plant {campaign.plant}, voter {campaign.voter}, sensors {campaign.sensors}, "
-        f"wind {campaign.wind}"
-    )
+    choices = [f"{key} {getattr(campaign, key)}" for key in CHOICES if getattr(campaign, key)]
+    yield ", ".join([f"Benchmark {campaign.benchmark}", *choices])
     substeps = f", {campaign.substeps} integration steps each" if campaign.substeps > 1 else ""
     yield f"Purpose {campaign.purpose}, seed {campaign.seed}, sample {campaign.sample_s:g} s{substeps}"
 
@@ -91,7 +90,7 @@ def _line(scenario: PlannedScenario) -> tuple[str, str, str, str, str, str]:
 
 
 def _fault(fault: FaultSpecification) -> str:
-    sizes = fault.model_dump(exclude_defaults=True, exclude=set(_COMMON))
+    sizes = fault.model_dump(exclude_defaults=True, exclude=set(_COMMON), by_alias=True)
     words = [fault.kind, *(f"{key}={_short(value)}" for key, value in sizes.items())]
     words += [fault.mode] if fault.mode != "add" else []
     words += [f"on {'+'.join(fault.sites)} at {fault.onset_s:g} s"]

@@ -1,10 +1,13 @@
 """The keys of a design file and what values they take."""
 
+from collections.abc import Mapping
 from typing import Any
+
+import yaml
 
 from fddbench.campaign.model import Name, Seed, Strict
 
-__all__ = ["DesignFile", "TunedOn"]
+__all__ = ["DesignFile", "TunedOn", "design_text"]
 
 
 class TunedOn(Strict):
@@ -33,6 +36,8 @@ class DesignFile(Strict):
         Where the numbers come from.
     tuned_on : list of TunedOn, or None
         Flights the numbers were chosen on.
+    recipe : mapping, or None
+        What ``fddbench design`` makes the gains from, and what it found.
     gains : mapping
         Numbers of the kind.
     """
@@ -41,4 +46,12 @@ class DesignFile(Strict):
     about: str = ""
     source: str
     tuned_on: tuple[TunedOn, ...] | None
+    recipe: dict[str, Any] | None = None
     gains: dict[str, Any]
+
+
+def design_text(data: Mapping[str, Any]) -> str:
+    """File of a design: a first line that says what it is, then the keys, a line per row of a matrix."""
+    about = data.get("about") or data["source"]
+    body = yaml.safe_dump(dict(data), sort_keys=False, default_flow_style=None, allow_unicode=True, width=10_000)
+    return f"# {about}\n{body}"

@@ -1,6 +1,7 @@
 """Tuned detectors: a file with the kind, the numbers, where they come from and what they were tuned on."""
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -46,6 +47,8 @@ class Design:
         Where it was found.
     where : str
         Place in the campaign that names it.
+    gamma : float or None
+        What its recipe guarantees in the worst case [-].
     """
 
     name: str
@@ -59,6 +62,7 @@ class Design:
     plugin: Plugin | None
     path: Path
     where: str
+    gamma: float | None = None
 
     def build(self, bus: Bus) -> Detector:
         """Detector for a bus; raises DesignError when its numbers do not make one."""
@@ -153,7 +157,14 @@ def read_design(path: Path, *, where: str = "") -> Design:
         plugin=plugin,
         path=path,
         where=where,
+        gamma=_gamma(written.recipe),
     )
+
+
+def _gamma(recipe: Mapping[str, Any] | None) -> float | None:
+    found = (recipe or {}).get("found")
+    gamma = found.get("gamma") if isinstance(found, dict) else None
+    return float(gamma) if isinstance(gamma, float | int) else None
 
 
 def _kind(name: Any, folder: Path) -> tuple[Any, Plugin | None]:

@@ -10,6 +10,7 @@ from fddbench.campaign.document import Address, Document
 from fddbench.campaign.messages import mistakes_of
 from fddbench.errors import FddbenchError, Mistake, UnknownNameError
 from fddbench.faults.specification import FaultSpecification
+from fddbench.interfaces import Benchmark
 
 __all__ = ["Faults", "load_kind", "read_faults"]
 
@@ -17,28 +18,34 @@ Faults = dict[int, tuple[FaultSpecification, ...]]
 """Faults by the position of their scenario in the file."""
 
 
-def read_faults(document: Document) -> tuple[Faults, list[Mistake]]:
-    """Faults of every scenario, and what is wrong with them; entries that are no mappings are left to the schema."""
+def read_faults(document: Document, benchmark: Benchmark | None) -> tuple[Faults, list[Mistake]]:
+    """Faults of every scenario, and what is wrong with them; entries that are no mappings are left to the schema.
+
+    The benchmark says in which unit sizes are written; when it is not known, deg/s.
+    """
+    unit = benchmark.fault_units.unit if benchmark else "deg/s"
     found: Faults = {}
     mistakes: list[Mistake] = []
     for scenario in range(len(document.items("scenarios"))):
         faults = []
         for number, entry in enumerate(document.items("scenarios", scenario, "faults")):
             if isinstance(entry, dict):
-                fault = _read_fault(document, ("scenarios", scenario, "faults", number), entry)
+                fault = _read_fault(document, ("scenarios", scenario, "faults", number), entry, unit)
                 faults += [fault] if isinstance(fault, FaultSpecification) else []
                 mistakes += fault if isinstance(fault, list) else []
         found[scenario] = tuple(faults)
     return found, mistakes
 
 
-def _read_fault(document: Document, address: Address, entry: dict[str, Any]) -> FaultSpecification | list[Mistake]:
+def _read_fault(
+    document: Document, address: Address, entry: dict[str, Any], unit: str
+) -> FaultSpecification | list[Mistake]:
     kind = entry.get("kind")
     if not isinstance(kind, str):
         known = ", ".join(registry.kinds("fault"))
         return [document.mistake((*address, "kind"), f"every fault needs a kind: one of {known}")]
     try:
-        model = load_kind("fault", kind)
+        model = load_kind("fault", kind).in_unit(unit)
     except FddbenchError as error:
         return [document.mistake((*address, "kind"), str(error))]
     try:

@@ -4,6 +4,7 @@ import json
 import re
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from pydantic import ValidationError
 
@@ -17,7 +18,7 @@ from fddbench.campaign.meaning import Campaign, Scenario
 from fddbench.campaign.messages import mistakes_of
 from fddbench.campaign.model import NAME_PATTERN, CampaignFile
 from fddbench.campaign.overrides import with_overrides
-from fddbench.campaign.references import CHOICES, unknown_names
+from fddbench.campaign.references import CHOICES, default_choice, unknown_names
 from fddbench.campaign.wording import shown
 from fddbench.campaign.yaml_nodes import read_yaml
 from fddbench.errors import CampaignError, FddbenchError, Mistake, did_you_mean
@@ -42,12 +43,11 @@ def read_campaign(path: Path, overrides: Sequence[str] = ()) -> Campaign:
         written = CampaignFile.model_validate_json(json.dumps(document.data), strict=True)
     except ValidationError as error:
         mistakes += mistakes_of(error, document, model=CampaignFile)
-    faults, wrong = read_faults(document)
+    benchmark, unknown = _benchmark(document)
+    faults, wrong = read_faults(document, benchmark)
     mistakes += wrong
     designs, wrong = _designs(document, path.parent)
-    mistakes += wrong
-    benchmark, wrong = _benchmark(document)
-    mistakes += wrong
+    mistakes += [*wrong, *unknown]
     if benchmark is not None:
         mistakes += unknown_names(document, benchmark)
     if written is not None and benchmark is not None and not mistakes:
@@ -166,7 +166,7 @@ def _meaning(
     designs: tuple[Design, ...],
     benchmark: Benchmark,
 ) -> Campaign:
-    choices = {key: getattr(written, key) or getattr(benchmark, options)[0] for key, options in CHOICES.items()}
+    choices: dict[str, Any] = {key: getattr(written, key) or default_choice(benchmark, key) for key in CHOICES}
     scenarios = tuple(
         Scenario(
             name=entry.name,
@@ -180,7 +180,8 @@ def _meaning(
     )
     content = written.model_dump(mode="json", exclude={"about", "scenarios"}) | choices
     content["scenarios"] = [
-        entry.model_dump(mode="json") | {"faults": [fault.model_dump(mode="json") for fault in faults[number]]}
+        entry.model_dump(mode="json")
+        | {"faults": [fault.model_dump(mode="json", by_alias=True) for fault in faults[number]]}
         for number, entry in enumerate(written.scenarios)
     ]
     content["designs"] = {design.name: design.sha256 for design in designs}

@@ -4,6 +4,7 @@ import typing
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
+from pydantic.fields import FieldInfo
 
 from fddbench.campaign.document import Address, Document
 from fddbench.campaign.model import extra_hint
@@ -19,9 +20,14 @@ def allowed_keys(model: type[BaseModel], address: Address) -> tuple[str, ...]:
     for part in address:
         if found is None or isinstance(part, int):
             continue
-        entry = found.model_fields.get(part)
+        entry = _keyed(found).get(part)
         found = _model_in(entry.annotation if entry else extra_hint(found))
-    return tuple(found.model_fields) if found else ()
+    return tuple(_keyed(found)) if found else ()
+
+
+def _keyed(model: type[BaseModel]) -> dict[str, FieldInfo]:
+    """Fields of a model by the keys that a file writes."""
+    return {field.alias or name: field for name, field in model.model_fields.items()}
 
 
 def _model_in(annotation: Any) -> type[BaseModel] | None:

@@ -11,7 +11,7 @@ from fddbench import registry
 from fddbench.campaign.meaning import Campaign, Scenario
 from fddbench.campaign.sampling import Runs, count, parameters
 from fddbench.campaign.streams import flight_stream, scenario_stream
-from fddbench.campaign.timing import faulty_sites, first_faulty_sample, flight_s, limit_s, samples
+from fddbench.campaign.timing import faulty_sites, first_faulty_sample, flight_limit_s, flight_s, limit_s, samples
 from fddbench.faults.specification import FaultSpecification
 from fddbench.interfaces import Benchmark, Floats
 
@@ -37,7 +37,7 @@ class PlannedScenario:
     faulty_sites, n_faulty : tuple of str, int
         Distinct faulty sites in the order of the benchmark.
     limit_s : float or None
-        Detection time limit of the flight [s]; None in a healthy flight.
+        Detection time limit of the flight, from its first onset [s]; None in a healthy flight.
     event_limits_s : tuple of float
         Detection time limit of each fault by itself [s].
     stream : int
@@ -152,7 +152,7 @@ def _planned(scenario: Scenario, campaign: Campaign, benchmark: Benchmark, *, fi
         k0=first_faulty_sample(faults, campaign.sample_s),
         faulty_sites=sites,
         n_faulty=len(sites),
-        limit_s=limit_s(len(sites), benchmark, override_s=own_limit) if faults else None,
+        limit_s=flight_limit_s(faults, benchmark, override_s=own_limit) if faults else None,
         event_limits_s=_event_limits(faults, benchmark, own_limit),
         stream=scenario_stream(campaign.purpose, scenario.name),
     )

@@ -6,16 +6,26 @@ from fddbench.campaign.document import Address, Document
 from fddbench.errors import Mistake, did_you_mean
 from fddbench.interfaces import Benchmark
 
-__all__ = ["CHOICES", "unknown_names"]
+__all__ = ["CHOICES", "default_choice", "unknown_names"]
 
 CHOICES = {"plant": "plants", "voter": "voters", "sensors": "sensors", "wind": "winds"}
-"""Key of a campaign → attribute of the benchmark with its options, the default first."""
+"""Key of a campaign → attribute of the benchmark with its options, the default first; empty: nothing to choose."""
+
+
+def default_choice(benchmark: Benchmark, key: str) -> str:
+    """What a campaign flies that does not say, "" where there is nothing to choose."""
+    options: tuple[str, ...] = getattr(benchmark, CHOICES[key])
+    return options[0] if options else ""
 
 
 def unknown_names(document: Document, benchmark: Benchmark) -> Iterator[Mistake]:
     """Every name that the benchmark does not know; reads the raw data, so that other mistakes do not hide these."""
     for key, options in CHOICES.items():
         known: tuple[str, ...] = getattr(benchmark, options)
+        if not known and document.get(key) is not None:
+            message = f"benchmark {benchmark.name!r} has no {key} to choose; remove this key"
+            yield document.mistake((key,), message, key=True)
+            continue
         yield from _unknown(document, (key,), known, f"{key} of benchmark {benchmark.name!r}")
     for scenario in range(len(document.items("scenarios"))):
         address: Address = ("scenarios", scenario)

@@ -8,6 +8,7 @@ from fddbench.interfaces import Benchmark
 __all__ = [
     "faulty_sites",
     "first_faulty_sample",
+    "flight_limit_s",
     "flight_s",
     "last_onset_s",
     "limit_s",
@@ -33,6 +34,17 @@ def last_onset_s(fault: FaultSpecification) -> float:
 def limit_s(n_faulty: int, benchmark: Benchmark, *, override_s: float | None) -> float:
     """Time within which faulty sites must be found [s]."""
     return benchmark.detection_time_limit_s(n_faulty) if override_s is None else override_s
+
+
+def flight_limit_s(faults: Sequence[FaultSpecification], benchmark: Benchmark, *, override_s: float | None) -> float:
+    """Time from the first onset within which all faulty sites of a flight must be found [s].
+
+    The benchmark's requirement runs from the onset of the last fault: before that, nobody can know it.
+    """
+    if override_s is not None:
+        return override_s
+    onsets = [fault.onset_s for fault in faults]
+    return max(onsets) - min(onsets) + benchmark.detection_time_limit_s(len(faulty_sites(faults, benchmark)))
 
 
 def flight_s(

@@ -8,7 +8,7 @@ from io import TextIOWrapper
 from pathlib import Path
 
 from fddbench import __version__
-from fddbench.cli import commands
+from fddbench.cli import commands, designing
 from fddbench.errors import FddbenchError
 
 __all__ = ["entry", "main", "parser"]
@@ -57,6 +57,11 @@ def parser() -> argparse.ArgumentParser:
     check = _add(subs, "check", commands.check)
     _campaign(check)
 
+    design = _add(subs, "design", designing.design)
+    design.add_argument("design", type=Path, metavar="FILE", help="design file with a recipe")
+    design.add_argument("--output", type=Path, metavar="FILE", help="where to write the design (default: print it)")
+    _tune(_add(subs, "tune", designing.tune))
+
     _add(subs, "list", commands.list_)
     init = _add(subs, "init", commands.init)
     init.add_argument("folder", type=Path, nargs="?", default=Path(), metavar="DIR", help="where to (default: here)")
@@ -81,6 +86,30 @@ def _campaign(command: argparse.ArgumentParser) -> None:
         "--set", action="append", default=[], metavar="PATH=VALUE", dest="overrides",
         help="change a value of the campaign, e.g. dispersions.monte_carlo.runs=10 (may be repeated)",
     )  # fmt: skip
+
+
+def _tune(command: argparse.ArgumentParser) -> None:
+    command.add_argument("design", type=Path, metavar="DESIGN", help="name of a design, or its file")
+    _campaign(command)
+    command.add_argument(
+        "--false-alarm-rate", type=_share, default=0.01, metavar="SHARE",
+        help="largest share of healthy flights with a false alarm (default: 0.01)",
+    )  # fmt: skip
+    command.add_argument(
+        "--output", type=Path, metavar="FILE", help="file to write (default: detectors/DESIGN_tuned.yaml)"
+    )
+    command.add_argument("--force", action="store_true", help="replace the file when it exists")
+
+
+def _share(text: str) -> float:
+    """Share of flights."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = -1.0
+    if not 0.0 <= value < 1.0:
+        raise argparse.ArgumentTypeError(f"need a share from 0 to below 1, e.g. 0.01 for 1 %, got {text!r}")
+    return value
 
 
 def _jobs(text: str) -> int:

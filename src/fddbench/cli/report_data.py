@@ -9,7 +9,7 @@ import pandas as pd
 import yaml
 
 from fddbench.reporting.page import ReportData
-from fddbench.reporting.published import published_for
+from fddbench.reporting.published import iterations_for, published_for
 from fddbench.results.folder import provenance_of
 from fddbench.results.table import load, load_events
 from fddbench.runner.assembly import assemble
@@ -32,7 +32,6 @@ _SETTINGS = (
     "sample_s",
     "substeps",
 )
-_SHOWN = ("r_deg_s", "r_voted_deg_s")
 _AFTER_S, _LEAST_S = 3.0, 5.0
 
 
@@ -66,11 +65,14 @@ def report_data(folder: Path) -> ReportData:
                 "about": d.about,
                 "sha256": d.sha256,
                 "load": loads[d.name],
+                "gamma": d.gamma,
             }
             for d in campaign.designs
         ],
-        recordings=list(replay(folder, chosen, seconds=_seconds(rows), signals=_SHOWN)),
+        recordings=list(replay(folder, chosen, seconds=_seconds(rows), signals=assembly.plan.benchmark.shown)),
         published=published_for(content),
+        iterations=iterations_for(content),
+        limits_from=assembly.plan.benchmark.limits_from,
     )
 
 

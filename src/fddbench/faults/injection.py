@@ -11,7 +11,8 @@ import numpy as np
 
 from fddbench.blocks.functions import sin
 from fddbench.blocks.layout import Layout, Rows
-from fddbench.faults.specification import FaultSpecification, FaultWave, SensorUnits
+from fddbench.faults.specification import FaultSpecification, FaultWave
+from fddbench.interfaces import FaultUnits
 
 __all__ = ["NEVER", "FaultStep", "first_samples"]
 
@@ -48,14 +49,14 @@ class FaultStep:
         self.constants = Layout(**{f"slot_{j}": slot.size for j in range(slots)})
         self.states = Layout(**{name: n for j in range(slots) for name in (f"held_{j}", f"bit_{j}")}, last_healthy=n)
 
-    def rows(self, faults: Sequence[FaultSpecification], units: SensorUnits, phases: np.ndarray) -> np.ndarray:
+    def rows(self, faults: Sequence[FaultSpecification], units: FaultUnits, phases: np.ndarray) -> np.ndarray:
         """Constant rows of one scenario, (n_rows, n_cases).
 
         Parameters
         ----------
         faults : sequence of FaultSpecification
             Faults of the scenario, at most `slots`.
-        units : SensorUnits
+        units : FaultUnits
             Ranges of the faulty signal.
         phases : (slots, n_sites, n_cases) array
             Uniform numbers in (0, 1) for faults that draw their phase per case.
@@ -71,7 +72,7 @@ class FaultStep:
                 rows[start : start + len(self.sites)] = 2.0 * np.pi * phases[j, site]
         return rows
 
-    def _column(self, fault: FaultSpecification, units: SensorUnits) -> np.ndarray:
+    def _column(self, fault: FaultSpecification, units: FaultUnits) -> np.ndarray:
         """Constants of one fault, (n_slot_rows,)."""
         wave = fault.wave(units)
         signs = {
@@ -105,7 +106,7 @@ class FaultStep:
         Parameters
         ----------
         healthy : (n_sites, n_cases) rows
-            Signal without faults [deg/s].
+            Signal without faults.
         normals : sequence of (4, n_cases) rows
             Four normals per slot from the scenario's stream; site i takes number i when independent, else number 0.
         sample : number
@@ -131,9 +132,9 @@ class FaultStep:
         new_bit = since - c.bit_samples * np.floor(since / np.maximum(c.bit_samples, 1.0)) == 0.0
         bit = np.where(new_bit, np.where(random >= 0.0, 1.0, -1.0), bit)
         time_s = np.where(active, since, 0.0) * self.sample_s
-        ramp = np.minimum(np.maximum(c.rate_deg_s2 * time_s, -c.ramp_limit_deg_s), c.ramp_limit_deg_s)
-        sine = c.amplitude_deg_s * sin(c.frequency_rad_s * time_s + c.phase)
-        wave = c.offset_deg_s + ramp + sine + c.sigma_deg_s * random + c.bit_deg_s * bit
-        sum_ = c.keep * y + c.hold * held + c.hold_value_deg_s + c.sign * wave
-        clipped = np.minimum(np.maximum(sum_, -c.clip_deg_s), c.clip_deg_s)
+        ramp = np.minimum(np.maximum(c.rate * time_s, -c.ramp_limit), c.ramp_limit)
+        sine = c.amplitude * sin(c.frequency_rad_s * time_s + c.phase)
+        wave = c.offset + ramp + sine + c.sigma * random + c.bit * bit
+        sum_ = c.keep * y + c.hold * held + c.hold_value + c.sign * wave
+        clipped = np.minimum(np.maximum(sum_, -c.clip), c.clip)
         return np.where(active, clipped, y), held, bit

@@ -1,9 +1,9 @@
 """Jam: the sensor stands off by a constant, or stands still."""
 
-from dataclasses import replace
 from typing import ClassVar, Literal
 
-from fddbench.faults.specification import FaultSpecification, FaultWave, Finite, SensorUnits, one_of
+from fddbench.faults.specification import FaultSpecification, FaultWave, Finite
+from fddbench.interfaces import FaultUnits
 
 __all__ = ["Jam"]
 
@@ -13,8 +13,9 @@ class Jam(FaultSpecification):
 
     Attributes
     ----------
-    amplitude_percent, amplitude_deg_s : float
-        Offset with ``mode: add``, of the admissible range [%] or in [deg/s]; give one. With ``mode: replace`` give
+    amplitude_percent, amplitude : float
+        Offset with ``mode: add``, of the admissible range [%] or in the unit of the sites; give one. With
+        ``mode: replace`` give
         ``freeze: true`` or a ``hold_value_*`` instead.
     """
 
@@ -22,16 +23,15 @@ class Jam(FaultSpecification):
 
     kind: Literal["jam"]
     amplitude_percent: Finite | None = None
-    amplitude_deg_s: Finite | None = None
+    amplitude: Finite | None = None
 
-    def wave(self, units: SensorUnits) -> FaultWave:
+    def wave(self, units: FaultUnits) -> FaultWave:
         """Offset, or the held value alone."""
         if self.mode == "replace":
-            if self.amplitude_percent is not None or self.amplitude_deg_s is not None:
+            if self.amplitude_percent is not None or self.amplitude is not None:
                 raise ValueError("a jam with mode: replace stands at hold_value_* or freezes; remove the amplitude")
-            if not self.freeze and self.hold_value_deg_s is None and self.hold_value_percent is None:
-                raise ValueError("a jam with mode: replace needs freeze: true | hold_value_deg_s | hold_value_percent")
+            if not self.freeze and self.hold_value is None and self.hold_value_percent is None:
+                held = f"{self.key('hold_value')} | hold_value_percent"
+                raise ValueError(f"a jam with mode: replace needs freeze: true | {held}")
             return FaultWave(**self.base(units))
-        percent = None if self.amplitude_percent is None else self.amplitude_percent / 100.0 * units.admissible_deg_s
-        offset = one_of(amplitude_percent=percent, amplitude_deg_s=self.amplitude_deg_s)
-        return replace(FaultWave(), offset_deg_s=offset)
+        return FaultWave(offset=self.size("amplitude", "amplitude_percent", units))

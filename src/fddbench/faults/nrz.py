@@ -4,7 +4,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from fddbench.faults.specification import FaultSpecification, FaultWave, Finite, SensorUnits, one_of
+from fddbench.faults.specification import FaultSpecification, FaultWave, Finite
+from fddbench.interfaces import FaultUnits
 
 __all__ = ["Nrz"]
 
@@ -14,8 +15,8 @@ class Nrz(FaultSpecification):
 
     Attributes
     ----------
-    amplitude_percent, amplitude_deg_s : float
-        Size of a bit, of the admissible range [%] or in [deg/s]; give one.
+    amplitude_percent, amplitude : float
+        Size of a bit, of the admissible range [%] or in the unit of the sites; give one.
     bit_s : float
         Length of a bit [s]; our choice of 0.05 s where the paper is silent.
     """
@@ -24,11 +25,10 @@ class Nrz(FaultSpecification):
 
     kind: Literal["nrz"]
     amplitude_percent: Finite | None = None
-    amplitude_deg_s: Finite | None = None
+    amplitude: Finite | None = None
     bit_s: Annotated[float, Field(gt=0.0, allow_inf_nan=False)] = 0.05
 
-    def wave(self, units: SensorUnits) -> FaultWave:
+    def wave(self, units: FaultUnits) -> FaultWave:
         """Bit stream of the given size."""
-        percent = None if self.amplitude_percent is None else self.amplitude_percent / 100.0 * units.admissible_deg_s
-        size = one_of(amplitude_percent=percent, amplitude_deg_s=self.amplitude_deg_s)
-        return FaultWave(**self.base(units), bit_deg_s=size, bit_s=self.bit_s)
+        size = self.size("amplitude", "amplitude_percent", units)
+        return FaultWave(**self.base(units), bit=size, bit_s=self.bit_s)

@@ -5,7 +5,8 @@ from typing import ClassVar, Literal
 import numpy as np
 from pydantic import model_validator
 
-from fddbench.faults.specification import FaultSpecification, FaultWave, Finite, SensorUnits, one_of
+from fddbench.faults.specification import FaultSpecification, FaultWave, Finite, one_of
+from fddbench.interfaces import FaultUnits
 
 __all__ = ["Oscillatory"]
 
@@ -15,8 +16,8 @@ class Oscillatory(FaultSpecification):
 
     Attributes
     ----------
-    amplitude_percent, amplitude_deg_s : float
-        Half of the peak-to-peak excursion, of the admissible range [%] or in [deg/s]; give one.
+    amplitude_percent, amplitude : float
+        Half of the peak-to-peak excursion, of the admissible range [%] or in the unit of the sites; give one.
     frequency_hz, frequency_rad_s : float
         Frequency; give one.
     phase_rad : float
@@ -29,7 +30,7 @@ class Oscillatory(FaultSpecification):
 
     kind: Literal["oscillatory"]
     amplitude_percent: Finite | None = None
-    amplitude_deg_s: Finite | None = None
+    amplitude: Finite | None = None
     frequency_hz: Finite | None = None
     frequency_rad_s: Finite | None = None
     phase_rad: Finite | None = None
@@ -41,13 +42,12 @@ class Oscillatory(FaultSpecification):
             raise ValueError("give phase_rad or phase: uniform, not both")
         return self
 
-    def wave(self, units: SensorUnits) -> FaultWave:
+    def wave(self, units: FaultUnits) -> FaultWave:
         """Sine of the given size."""
-        percent = None if self.amplitude_percent is None else self.amplitude_percent / 100.0 * units.admissible_deg_s
         turns = None if self.frequency_hz is None else 2.0 * np.pi * self.frequency_hz
         return FaultWave(
             **self.base(units),
-            amplitude_deg_s=one_of(amplitude_percent=percent, amplitude_deg_s=self.amplitude_deg_s),
+            amplitude=self.size("amplitude", "amplitude_percent", units),
             frequency_rad_s=one_of(frequency_hz=turns, frequency_rad_s=self.frequency_rad_s),
             phase_rad=self.phase_rad or 0.0,
             phase_uniform=float(self.phase == "uniform"),

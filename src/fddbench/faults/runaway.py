@@ -2,7 +2,8 @@
 
 from typing import ClassVar, Literal
 
-from fddbench.faults.specification import FaultSpecification, FaultWave, Finite, SensorUnits, one_of
+from fddbench.faults.specification import FaultSpecification, FaultWave, Finite
+from fddbench.interfaces import FaultUnits
 
 __all__ = ["Runaway"]
 
@@ -12,21 +13,20 @@ class Runaway(FaultSpecification):
 
     Attributes
     ----------
-    rate_percent_s, rate_deg_s2 : float
-        Slope, of the admissible range per second [%/s] or in [deg/s^2]; give one.
+    rate_percent_s, rate : float
+        Slope, of the admissible range per second [%/s] or in the unit of the sites per second; give one.
     """
 
     about: ClassVar[str] = "a ramp up to the sensor's range"
 
     kind: Literal["runaway"]
     rate_percent_s: Finite | None = None
-    rate_deg_s2: Finite | None = None
+    rate: Finite | None = None
 
-    def wave(self, units: SensorUnits) -> FaultWave:
+    def wave(self, units: FaultUnits) -> FaultWave:
         """Ramp of the given slope, clipped at the sensor's range."""
-        percent = None if self.rate_percent_s is None else self.rate_percent_s / 100.0 * units.admissible_deg_s
         return FaultWave(
             **self.base(units),
-            rate_deg_s2=one_of(rate_percent_s=percent, rate_deg_s2=self.rate_deg_s2),
-            clip_deg_s=units.sensor_range_deg_s,
+            rate=self.size("rate", "rate_percent_s", units),
+            clip=units.sensor_range,
         )

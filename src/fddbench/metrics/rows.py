@@ -180,4 +180,5 @@ def event_columns(
         sample_s=sample_s,
         valid=np.array([True]),
     )
-    return {name: values[0] for name, values in columns.items()}
+    early = bool(getattr(x, f"early_{event}")[case] > 0.0)
+    return {name: values[0] for name, values in columns.items()} | {"false_alarm": early}

@@ -46,7 +46,8 @@ class Scoring:
         self.constants = Layout(k0=0, n_faulty=0, last=0, **{f"event_{j}": event.size for j in range(n_events)})
         self.states = Layout(
             first_alarm=0, detection=0, over_declared=0, false_alarm=0, margin_healthy=0, margin_faulty=0, nonfinite=0,
-            declared=n_sites, **{f"{name}_{j}": 0 for j in range(n_events) for name in ("event_alarm", "event_detection")},
+            declared=n_sites,
+            **{f"{name}_{j}": 0 for j in range(n_events) for name in ("event_alarm", "event_detection", "early")},
         )  # fmt: skip
 
     def rows(self, *, k0: float, n_faulty: int, last: float, events: Sequence[EventTimes], n_cases: int) -> Floats:
@@ -91,12 +92,14 @@ class Scoring:
         )
 
     def _events(self, x: Rows, c: Rows, declared: Rows, sample: Rows, active: Rows) -> Mapping[str, Rows]:
-        """First alarm and detection of every fault, on its own sites and in its own interval."""
+        """First alarm and detection of every fault, on its own sites and in its own interval, and alarms before it."""
         after = {}
         for j in range(self.n_events):
             event = self.event.unpack(getattr(c, f"event_{j}"))
             within = active & (sample >= event.first) & (sample <= event.last)
             hits, own = total(declared * event.own), total(event.own)
+            early = active & (sample < event.first) & (hits > 0.0)
+            after[f"early_{j}"] = np.where(early, 1.0, getattr(x, f"early_{j}"))
             after[f"event_alarm_{j}"] = _first(getattr(x, f"event_alarm_{j}"), within & (hits > 0.0), sample)
             after[f"event_detection_{j}"] = _first(getattr(x, f"event_detection_{j}"), within & (hits == own), sample)
         return after

@@ -40,7 +40,7 @@ def findings(summary: pd.DataFrame) -> list[Sentence]:
     faulty = {name: group for name, group in faulty.items() if group["flown"].sum()}
     found: list[Sentence] = []
     if faulty:
-        found.append(("More sites declared than faulty (drops good sensors)", _each(faulty, "over_declared", "faulty")))
+        found.append(("More sites declared than faulty (drops good ones)", _each(faulty, "over_declared", "faulty")))
     if by_detector:
         found.append(("False alarms", [_alarms(str(name), group) for name, group in by_detector.items()]))
     if faulty:

@@ -11,7 +11,8 @@ import pandas as pd
 from fddbench.interfaces import Recording
 from fddbench.metrics.summary import summarize
 from fddbench.reporting import figures, headlines, signals, tables
-from fddbench.reporting.published import Published
+from fddbench.reporting.guarantees import guarantee_lines
+from fddbench.reporting.published import Iterations, Published
 
 __all__ = ["ReportData", "page_html", "write_page"]
 
@@ -37,6 +38,10 @@ class ReportData:
         Re-flown cases, one recording per scenario.
     published : Published or None
         Printed table to stand beside ours.
+    iterations : Iterations or None
+        Printed course of an optimisation, and ours.
+    limits_from : str
+        Where the benchmark's detection time limits come from.
     """
 
     campaign: Mapping[str, Any]
@@ -46,6 +51,8 @@ class ReportData:
     designs: Sequence[Mapping[str, Any]]
     recordings: Sequence[Recording]
     published: Published | None = None
+    iterations: Iterations | None = None
+    limits_from: str = ""
 
 
 def write_page(report: ReportData, output: Path) -> None:
@@ -81,6 +88,9 @@ def _content(report: ReportData) -> dict[str, Any]:
         "flown": headlines.flown_sentence(rows),
         "findings": headlines.findings(summary),
         "results": tables.result_lines(summary),
+        "guarantees": guarantee_lines(rows, report.events, report.designs),
+        "iterations": report.iterations,
+        "limits_from": report.limits_from,
         "published": report.published,
         "compared": compared,
         "curves": figures.detection_curves(rows),
@@ -96,7 +106,7 @@ def _content(report: ReportData) -> dict[str, Any]:
 
 def _settings(campaign: Mapping[str, Any]) -> dict[str, Any]:
     names = ("benchmark", "plant", "voter", "sensors", "wind", "purpose", "seed", "sample_s")
-    return {name: campaign[name] for name in names if campaign.get(name) is not None}
+    return {name: campaign[name] for name in names if campaign.get(name) not in (None, "")}
 
 
 def _picture(recording: Recording, rows: pd.DataFrame) -> dict[str, Any]:

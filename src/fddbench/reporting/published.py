@@ -9,9 +9,10 @@ import yaml
 from fddbench import gallery
 from fddbench.errors import FddbenchError, did_you_mean
 
-__all__ = ["Published", "PublishedRow", "published", "published_for"]
+__all__ = ["Iterations", "Published", "PublishedRow", "iterations_for", "published", "published_for"]
 
 _DEFAULTS = {"yaw_rate": "table8"}
+_ITERATIONS = {"jet_engine": "robust_hinf_table1"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -84,7 +85,7 @@ def published(table: str) -> Published:
     100
     """
     folder = gallery.folder("reports") / "published"
-    known = sorted(path.stem for path in folder.glob("*.yaml"))
+    known = sorted(path.stem for path in folder.glob("table*.yaml"))
     if table not in known:
         near = did_you_mean(table, known)
         raise FddbenchError(f"no published table is called {table!r}. {near}\nKnown: {', '.join(known) or 'none'}.")
@@ -98,3 +99,33 @@ def published_for(campaign: Mapping[str, Any]) -> Published | None:
     """Table that a campaign names under ``published``, else the default of its benchmark, else None."""
     table = campaign.get("published") or _DEFAULTS.get(str(campaign.get("benchmark")))
     return published(table) if table else None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Iterations:
+    """A printed table of an optimisation's course: title, source, what to say of it, and rows of one number each.
+
+    Attributes
+    ----------
+    runs : mapping of str to mapping of int to float
+        By whose run it is, the value after so many iterations.
+    findings : tuple of mapping
+        What stands beside it: a line of text and its value.
+    """
+
+    table: int
+    title: str
+    source: str
+    note: str
+    runs: Mapping[str, Mapping[int, float]]
+    findings: tuple[Mapping[str, Any], ...]
+
+
+def iterations_for(campaign: Mapping[str, Any]) -> Iterations | None:
+    """Course of the optimisation behind the designs of a benchmark, None where none is printed."""
+    name = _ITERATIONS.get(str(campaign.get("benchmark")))
+    if name is None:
+        return None
+    path = gallery.folder("reports") / "published" / f"{name}.yaml"
+    content = yaml.safe_load(path.read_text(encoding="utf-8"))
+    return Iterations(**{**content, "findings": tuple(content["findings"])})

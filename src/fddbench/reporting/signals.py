@@ -105,7 +105,7 @@ def _draw_sensors(axes: "Axes", recording: Recording, names: list[str], case: in
     axes.set_ylim(low, high + 0.18 * (high - low))
     axes.legend(loc="upper left", ncols=len(names), handlelength=1.6, columnspacing=1.0, borderaxespad=0.1)
     number = recording.cases[case] if recording.cases else "none"
-    axes.set(title=f"sensors, case {number}", ylabel=label(names[0].rpartition("_")[0]), xlabel="time [s]")
+    axes.set(title=f"signals, case {number}", ylabel=label(names[0].rpartition("_")[0]), xlabel="time [s]")
     _mark_onset(axes, recording, kept)
 
 

@@ -145,7 +145,10 @@ def event_lines(events: pd.DataFrame) -> list[list[Cell]]:
 def _events(flown: pd.DataFrame) -> Iterator[list[Cell]]:
     for (scenario, event, detector), group in flown.groupby(["scenario", "event", "detector"], sort=False):
         first = group.iloc[0]
-        flags = {name: int(np.sum(_numbers(group, name) == 1.0)) for name in ("detected", "missed", "censored")}
+        flags = {
+            name: int(np.sum(_numbers(group, name) == 1.0))
+            for name in ("detected", "missed", "censored", "false_alarm")
+        }
         time_s = _numbers(group, "detection_time_s")
         time_s = time_s[~np.isnan(time_s)]
         share = rate_with_interval("detected", flags["detected"], len(group))
@@ -159,7 +162,8 @@ def _events(flown: pd.DataFrame) -> Iterator[list[Cell]]:
             Cell(count(flags["detected"]), f"{ends} %"),
             Cell(count(flags["missed"])),
             Cell(count(flags["censored"])),
-            Cell(seconds(np.median(time_s) if len(time_s) else None)),
+            Cell(count(flags["false_alarm"]), alarm=flags["false_alarm"] > 0),
+            Cell(seconds(np.quantile(time_s, 0.5, method="inverted_cdf") if len(time_s) else None)),
             Cell(seconds(np.max(time_s) if len(time_s) else None)),
         ]
 

@@ -62,6 +62,7 @@ EVENTS = pa.schema(
         _column("detected", pa.bool_(), "a first alarm on own sites exists"),
         _column("missed", pa.bool_(), "no detection, or one beyond the limit; null: censored"),
         _column("censored", pa.bool_(), "fault or flight ended before the limit without detection"),
+        _column("false_alarm", pa.bool_(), "an own site declared before this fault began"),
     ],
     metadata={"fddbench_schema": SCHEMA_VERSION},
 )

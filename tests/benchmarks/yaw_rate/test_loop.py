@@ -197,4 +197,5 @@ def test_choices_that_do_not_exist_are_refused(bench):
 def test_literature_limits_and_ranges(bench):
     limits = [bench.benchmark.detection_time_limit_s(n) for n in (1, 2, 3)]
     assert limits == [120.0, 0.36, 0.36]
-    assert (bench.benchmark.admissible_range_deg_s, bench.benchmark.sensor_range_deg_s) == (40.0, 128.0)
+    units = bench.benchmark.fault_units
+    assert (units.unit, units.admissible, units.sensor_range) == ("deg/s", 40.0, 128.0)

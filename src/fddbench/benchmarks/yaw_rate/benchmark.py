@@ -6,9 +6,8 @@ from fddbench.benchmarks.yaw_rate.loop import LateralLoop
 from fddbench.benchmarks.yaw_rate.manoeuvres import DURATIONS_S
 from fddbench.benchmarks.yaw_rate.parameters import PARAMETERS, REFUSED
 from fddbench.benchmarks.yaw_rate.sensors import PRESETS
-from fddbench.faults.specification import SensorUnits
 from fddbench.flight.turbulence import WINDS_M_S
-from fddbench.interfaces import Options, Parameter
+from fddbench.interfaces import FaultUnits, Options, Parameter
 
 __all__ = ["YawRate"]
 
@@ -31,8 +30,9 @@ class YawRate:
     sensors: tuple[str, ...] = tuple(PRESETS)
     winds: tuple[str, ...] = tuple(WINDS_M_S)
     manoeuvres: Mapping[str, float] = DURATIONS_S
-    admissible_range_deg_s = 40.0
-    sensor_range_deg_s = 128.0
+    fault_units = FaultUnits(unit="deg/s", admissible=40.0, sensor_range=128.0)
+    shown: tuple[str, ...] = ("r_deg_s", "r_voted_deg_s")
+    limits_from = "inferred from the printed numbers"
 
     def detection_time_limit_s(self, n_faulty: int) -> float:
         """Requirement by number of faulty sensors [s]: 120 for one, 0.36 for two or more."""
@@ -40,5 +40,4 @@ class YawRate:
 
     def loop(self, options: Options) -> LateralLoop:
         """Closed loop for these options."""
-        units = SensorUnits(admissible_deg_s=self.admissible_range_deg_s, sensor_range_deg_s=self.sensor_range_deg_s)
-        return LateralLoop(options, self.sites, units)
+        return LateralLoop(options, self.sites, self.fault_units)

@@ -15,9 +15,9 @@ from fddbench.blocks import consumers
 from fddbench.blocks.functions import asin, interpolate
 from fddbench.blocks.layout import Layout, Rows
 from fddbench.faults.injection import FaultStep
-from fddbench.faults.specification import FaultSpecification, SensorUnits
+from fddbench.faults.specification import FaultSpecification
 from fddbench.flight import turbulence
-from fddbench.interfaces import Bus, Flights, Floats, Options, Start
+from fddbench.interfaces import Bus, FaultUnits, Flights, Floats, Options, Start
 
 __all__ = ["LateralLoop"]
 
@@ -44,7 +44,7 @@ class LateralLoop:
         "bank_command_deg",
     )
 
-    def __init__(self, options: Options, sites: tuple[str, ...], units: SensorUnits) -> None:
+    def __init__(self, options: Options, sites: tuple[str, ...], units: FaultUnits) -> None:
         self.sample_s, self.substeps = options.sample_s, options.substeps
         self.noise = PRESETS[options.sensors]
         self.voter = registry.load("voter", options.voter)()

@@ -1,0 +1,62 @@
+"""The engine of one flight: nominal matrices, closed with its Δ, discretised by Tustin, as constants per flight."""
+
+from pathlib import Path
+
+import numpy as np
+import yaml
+
+from fddbench.blocks.layout import Layout, Rows
+from fddbench.blocks.linear import column, product
+from fddbench.blocks.tustin import identity, inverse, times, tustin
+from fddbench.interfaces import Floats
+
+__all__ = ["CONSTANTS", "DELTA_79", "MATRICES", "N", "closed", "constants", "step"]
+
+_DATA = yaml.safe_load((Path(__file__).parent / "data" / "jet_engine.yaml").read_text(encoding="utf-8"))
+_NAMES = {"A": "Ao", "B": "Bo", "C": "Co", "D": "Do"}
+
+N = 3
+"""States, outputs, faults, disturbances and inputs: three of each."""
+
+MATRICES = {
+    name: np.array(_DATA[_NAMES.get(name, name)], dtype=float)
+    for name in ("A", "Bf", "Bd", "B", "C", "Df", "Dd", "D", "FA", "FC", "EA", "Ef", "Ed", "EB", "H")
+}
+"""Matrices of the uncertain plant as printed, by the names of `fddbench.design.systems.UncertainPlant`."""
+
+DELTA_79 = np.array(_DATA["Delta79"], dtype=float)
+"""Δ of equation (79), (3, 3)."""
+
+CONSTANTS = Layout(A=N * N, B=N * 3 * N, C=N * N, D=N * 3 * N)
+"""Rows per flight: the discrete-time matrices from (f, d, u), row by row."""
+
+
+def closed(delta: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+    """A, B, C, D of the engines, (rows, columns, n_cases), from inputs (f, d, u), equation (5)."""
+    m = {name: column(value) for name, value in MATRICES.items()}
+    delta_h = times(inverse(identity(N) - times(delta, m["H"])), delta)
+    seen = np.concatenate([m["Ef"], m["Ed"], m["EB"]], axis=1)
+    inputs = np.concatenate([m["Bf"], m["Bd"], m["B"]], axis=1)
+    outputs = np.concatenate([m["Df"], m["Dd"], m["D"]], axis=1)
+    x, y = times(m["FA"], delta_h), times(m["FC"], delta_h)
+    return m["A"] + times(x, m["EA"]), inputs + times(x, seen), m["C"] + times(y, m["EA"]), outputs + times(y, seen)
+
+
+def constants(delta: Floats, sample_s: float) -> Floats:
+    """Rows of `CONSTANTS`, (n_constant, n_cases), of engines with these Δ, (3, 3, n_cases)."""
+    found = tustin(*closed(delta), sample_s=sample_s)
+    packed: Floats = CONSTANTS.pack(
+        **{name: matrix.reshape(-1, matrix.shape[2]) for name, matrix in zip("ABCD", found, strict=True)}
+    )
+    return packed
+
+
+def step(x: Rows, c: Rows, v: Rows) -> tuple[Rows, Rows]:
+    """State at the next sample and outputs at this one, (3, n_cases) each; v = (f, d, u) in nine rows."""
+    A, B, C, D = (_matrix(rows, len(rows) // N) for rows in (c.A, c.B, c.C, c.D))
+    return product(A, x) + product(B, v), product(C, x) + product(D, v)
+
+
+def _matrix(rows: Rows, n_columns: int) -> Rows:
+    """Rows as a matrix per case, (3, n_columns, n_cases)."""
+    return np.stack([rows[i * n_columns : (i + 1) * n_columns] for i in range(N)])

@@ -1,0 +1,146 @@
+"""From the recipe in a design file to its numbers: what ``fddbench design`` runs."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pydantic import ValidationError
+
+from fddbench import registry
+from fddbench.campaign.design_file import DesignFile, design_text
+from fddbench.campaign.document import refuse
+from fddbench.campaign.messages import mistakes_of
+from fddbench.campaign.yaml_nodes import read_yaml
+from fddbench.design.problem import Filter, augment, close
+from fddbench.design.proof import Proven
+from fddbench.design.recipe_file import Recipe
+from fddbench.design.reference_search import optimize_reference
+from fddbench.design.robust_hinf import Design, synthesize
+from fddbench.design.systems import StateSpace, UncertainPlant
+from fddbench.design.uncertainty import NormBounded, blocks_of
+from fddbench.design.worst_case import worst_delta
+from fddbench.errors import DesignError
+
+__all__ = ["Cooked", "cook"]
+
+
+@dataclass(frozen=True)
+class Cooked:
+    """A design made anew: text of its file, what was found now, and what the file said before."""
+
+    text: str
+    found: Mapping[str, Any]
+    before: Mapping[str, Any]
+
+
+def cook(path: Path) -> Cooked:
+    """Design of the recipe in a design file, its thresholds untuned.
+
+    Raises
+    ------
+    FddbenchError
+        The file has no recipe, mistakes in it, or the recipe gives no filter.
+    """
+    document = read_yaml(path)
+    if not isinstance(document.data, dict) or not isinstance(document.get("recipe"), dict):
+        raise DesignError(
+            f"{path} has no recipe. Add `recipe: {{plant, method, reference, window_s, confirm_s}}`; "
+            "the shipped detectors/hinf_identity.yaml is an example."
+        )
+    mistakes, written, recipe = [], None, None
+    try:
+        written = DesignFile.model_validate_json(json.dumps(document.data), strict=True)
+    except ValidationError as error:
+        mistakes += mistakes_of(error, document, model=DesignFile)
+    try:
+        recipe = Recipe.model_validate_json(json.dumps(document.get("recipe")), strict=True)
+    except ValidationError as error:
+        mistakes += mistakes_of(error, document, model=Recipe, at=("recipe",))
+    refuse(mistakes)
+    assert written is not None
+    assert recipe is not None
+    filter_, found = _made(recipe)
+    data = {key: document.data[key] for key in ("kind", "about", "source") if key in document.data}
+    data |= {"tuned_on": None, "recipe": {**document.data["recipe"], "found": found}, "gains": _gains(filter_, recipe)}
+    return Cooked(design_text(data), found, recipe.found)
+
+
+def _made(recipe: Recipe) -> tuple[Filter, dict[str, Any]]:
+    """Filter of a recipe and what is known of it."""
+    plant = _plant(recipe.plant)
+    n_faults = plant.inputs[0]
+    reference = recipe.reference.system() if recipe.reference else StateSpace.gain(np.eye(n_faults))
+    if recipe.method == "exact_inverse":
+        filter_ = _exact_inverse(plant)
+        loop = close(augment(plant, StateSpace.gain(np.eye(n_faults))), StateSpace.gain(np.eye(n_faults)), filter_)
+        worst = worst_delta(loop, blocks_of(NormBounded(), plant))
+        return filter_, {"worst_norm_sampled": _short(worst.norm)}
+    if recipe.method == "fixed_reference":
+        design = synthesize(plant, reference, relax=recipe.relax)
+        return _flown(design).filter, _findings(design)
+    search = optimize_reference(plant, reference, relax=recipe.relax)
+    found = _findings(search.design) | {"gamma_by_iteration": [_short(step.gamma) for step in search.iterations]}
+    return _flown(search.design).filter, found
+
+
+def _flown(design: Design) -> Proven:
+    """The filter of the second step, else the optimum."""
+    return design.moderate or design
+
+
+def _findings(design: Design) -> dict[str, Any]:
+    """γ of the filter that flies with its certificate, and how far it is from the best."""
+    flown = _flown(design)
+    proof = flown.certificate.require()
+    return {
+        "gamma": _short(flown.gamma),
+        "gamma_optimum": _short(design.gamma),
+        "gamma_lower_bound": _short(design.lower_bound),
+        "certificate": {
+            "smallest_Pc": _short(proof.smallest_Pc),
+            "largest_robust": _short(proof.largest_robust),
+            "largest_sampled": _short(proof.largest_sampled),
+        },
+    }
+
+
+def _short(value: float) -> float:
+    """Six digits: what solvers agree on."""
+    return float(f"{value:.6g}")
+
+
+def _plant(given: str | Mapping[str, Any]) -> UncertainPlant:
+    if not isinstance(given, str):
+        unknown = set(given) - set(UncertainPlant.__dataclass_fields__)
+        if unknown:
+            raise DesignError(
+                f"no matrix of a plant is called {sorted(unknown)}; known: {list(UncertainPlant.__dataclass_fields__)}"
+            )
+        return UncertainPlant(**{name: np.array(rows) for name, rows in given.items()})
+    matrices = getattr(registry.load("benchmark", given), "matrices", None)
+    if matrices is None:
+        raise DesignError(f"benchmark {given!r} offers no matrices to design for; give them under recipe.plant")
+    return UncertainPlant(**matrices)
+
+
+def _exact_inverse(plant: UncertainPlant) -> Filter:
+    """Observer driven by its own residual ``r = Df⁻¹ (y - C x̂ - D u)``: the faults themselves, if plant and model agree."""
+    if plant.Df.shape[0] != plant.Df.shape[1] or np.linalg.matrix_rank(plant.Df) < len(plant.Df):
+        raise DesignError(f"an exact inverse needs a regular square Df, this one is {plant.Df.shape}")
+    back = np.asarray(np.linalg.inv(plant.Df), dtype=np.float64)
+    return Filter(
+        Ak=plant.A - plant.Bf @ back @ plant.C, Bky=plant.Bf @ back, Bku=plant.B - plant.Bf @ back @ plant.D,
+        Ck=-back @ plant.C, Dky=back, Dku=-back @ plant.D,
+    )  # fmt: skip
+
+
+def _gains(filter_: Filter, recipe: Recipe) -> dict[str, Any]:
+    """Gains of a `hinf_filter` with thresholds that nobody has tuned yet."""
+    names = {"A": "Ak", "B_y": "Bky", "B_u": "Bku", "C": "Ck", "D_y": "Dky", "D_u": "Dku"}
+    gains: dict[str, Any] = {name: getattr(filter_, own).tolist() for name, own in names.items()}
+    return gains | {
+        "window_s": recipe.window_s, "confirm_s": recipe.confirm_s, "thresholds": [1.0] * len(filter_.Ck),
+    }  # fmt: skip

@@ -1,0 +1,134 @@
+"""Residual filter given by its matrices, with an evaluation that isolates: residual i speaks for fault i."""
+
+from types import SimpleNamespace
+from typing import Annotated
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field
+
+from fddbench.blocks.layout import Layout, Rows
+from fddbench.blocks.linear import column, largest, product, total
+from fddbench.blocks.tustin import tustin
+from fddbench.detection.confirmation import held_samples, samples
+from fddbench.errors import DesignError
+from fddbench.interfaces import Bus, Floats, Verdict
+
+__all__ = ["HinfFilter", "HinfFilterGains"]
+
+Number = Annotated[float, Field(allow_inf_nan=False)]
+Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
+NonNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
+Matrix = tuple[tuple[Number, ...], ...]
+
+_SIDES = {
+    "A": ("x", "x"), "B_y": ("x", "y"), "B_u": ("x", "u"), "C": ("r", "x"), "D_y": ("r", "y"), "D_u": ("r", "u"),
+}  # fmt: skip
+"""Rows and columns of each matrix: states, residuals, outputs y and inputs u."""
+
+
+class HinfFilterGains(BaseModel):
+    """Filter in continuous time and its evaluation.
+
+    Attributes
+    ----------
+    A, B_y, B_u, C, D_y, D_u : matrices
+        ``x' = A x + B_y y + B_u u``, ``r = C x + D_y y + D_u u``; one residual per fault site.
+    window_s : float
+        Length of the moving mean of every residual [s].
+    thresholds : numbers
+        Largest |mean| of each residual that is no alarm, in the unit of the residual.
+    confirm_s : float
+        How long a mean must stay beyond its threshold [s].
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    A: Matrix
+    B_y: Matrix
+    B_u: Matrix
+    C: Matrix
+    D_y: Matrix
+    D_u: Matrix
+    window_s: Positive
+    thresholds: Annotated[tuple[Positive, ...], Field(min_length=1)]
+    confirm_s: NonNegative
+
+
+class HinfFilter:
+    """Declares fault i when the moving mean of residual i stays beyond its threshold; a declaration is for good.
+
+    Model assumed: the linear plant that the filter was designed for, whatever the design: robust H∞ filters and exact
+    inverses are the same kind with other numbers. Blind to what its window averages out; noisy with disturbances in the
+    direction of the faults, and off by the uncertainty times the inputs. Knobs: the window trades noise for delay, the
+    thresholds (``fddbench tune``) false alarms for misses. Cost: n_x (n_x + n_y + n_u) products, and one sum per sample of
+    the window and residual.
+
+    References
+    ----------
+    Robust fault detection and isolation by linear matrix inequalities with an optimal reference model, eq (8); moving
+    mean and decision are ours.
+    """
+
+    about = "residual filter by its matrices, moving mean and a threshold per residual"
+    Gains = HinfFilterGains
+
+    def __init__(self, gains: HinfFilterGains, bus: Bus) -> None:
+        g = {name: np.array(getattr(gains, name), dtype=float) for name in _SIDES}
+        stacked = [
+            column(m) for m in (g["A"], np.hstack([g["B_y"], g["B_u"]]), g["C"], np.hstack([g["D_y"], g["D_u"]]))
+        ]
+        self.A, self.B, self.C, self.D = tustin(*stacked, sample_s=bus.sample_s)
+        self.n_residuals, self.thresholds = len(gains.thresholds), column(gains.thresholds)
+        self.window = max(1, round(gains.window_s / bus.sample_s))
+        self.confirm_samples = samples(gains.confirm_s, bus.sample_s)
+        n = self.n_residuals
+        self.evaluated = tuple(f"mean_{i + 1}" for i in range(n))
+        self.recorded = tuple(f"{name}_{i + 1}" for i in range(n) for name in ("mean", "threshold"))
+        self.states = Layout(filter=len(g["A"]), window=n * self.window, held_samples=n, declared=n)
+
+    @classmethod
+    def from_design(cls, gains: HinfFilterGains, bus: Bus) -> "HinfFilter":
+        """Filter for a bus with outputs y and inputs u; refuses matrices that do not fit and unstable filters."""
+        missing = [name for name in ("y", "u") if name not in bus.signals]
+        if missing:
+            raise DesignError(f"hinf_filter needs the signals {missing}, this benchmark has {sorted(bus.signals)}")
+        sizes = {"x": len(gains.A), "y": bus.signals["y"], "u": bus.signals["u"], "r": len(bus.sites)}
+        for name, (rows, columns) in _SIDES.items():
+            found, need = _shape(getattr(gains, name)), (sizes[rows], sizes[columns])
+            if found != need:
+                raise DesignError(f"{name} is {found[0]} x {found[1]}, needs {need[0]} x {need[1]} on this benchmark")
+        if len(gains.thresholds) != sizes["r"]:
+            raise DesignError(f"{len(gains.thresholds)} thresholds for {sizes['r']} fault sites; give one for each")
+        poles = np.linalg.eigvals(np.array(gains.A))
+        if np.any(poles.real >= 0.0):
+            raise DesignError(
+                f"this filter diverges: A has poles {np.round(poles, 4).tolist()} in continuous time, all real parts "
+                "must be negative. Were the matrices designed in discrete time?"
+            )
+        return cls(gains, bus)
+
+    def start(self, n_cases: int) -> Floats:
+        """Nothing declared, filter at rest."""
+        return self.states.zeros(n_cases)
+
+    def step(self, state: Rows, measured: SimpleNamespace) -> tuple[Rows, Verdict]:
+        """Verdict after one sample."""
+        x, n = self.states.unpack(state), self.n_residuals
+        v = np.concatenate([measured.y, measured.u])
+        residual = product(self.C, x.filter) + product(self.D, v)
+        window = np.concatenate([residual, x.window[:-n]])
+        mean = total([window[n * j : n * (j + 1)] for j in range(self.window)]) / float(self.window)
+        held = held_samples(x.held_samples, np.abs(mean) > self.thresholds)
+        declared = np.maximum(x.declared, np.where(held - 1.0 >= self.confirm_samples, 1.0, 0.0))
+        after = self.states.pack(
+            filter=product(self.A, x.filter) + product(self.B, v), window=window, held_samples=held, declared=declared
+        )
+        shown = {name: mean[i] for i, name in enumerate(self.evaluated)}
+        shown |= {f"threshold_{i + 1}": np.zeros_like(mean[i]) + self.thresholds[i] for i in range(n)}
+        return after, Verdict(declared, largest(np.abs(mean) / self.thresholds), signals=shown)
+
+
+def _shape(matrix: Matrix) -> tuple[int, int]:
+    """Rows and columns; -1 columns where the rows differ in length."""
+    lengths = {len(row) for row in matrix}
+    return len(matrix), lengths.pop() if len(lengths) == 1 else -1

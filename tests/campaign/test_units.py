@@ -1,0 +1,97 @@
+"""Sizes of faults carry the unit of the benchmark's sites; a benchmark may have nothing to choose."""
+
+import pytest
+
+from fddbench import registry
+from fddbench.campaign.check import describe
+from fddbench.campaign.load import read_campaign
+from fddbench.campaign.plan import plan
+from fddbench.campaign.schema import campaign_schema
+from fddbench.errors import CampaignError
+from fddbench.interfaces import FaultUnits
+
+TEXT = """\
+name: plain
+benchmark: numbers
+seed: 7
+detectors: [plain]
+scenarios:
+  - name: three
+    manoeuvre: cruise
+    faults:
+      - {kind: jam, sites: [r1], onset_s: 4, amplitude: 1.5}
+      - {kind: runaway, sites: [r2], onset_s: 10, rate_per_s: 0.2}
+      - {kind: noise, sites: [r3], onset_s: 12, variance: 4}
+"""
+
+
+@pytest.fixture(autouse=True)
+def numbers(monkeypatch, toys):
+    """The toy benchmark with sites without a unit and without voters, sensors and winds."""
+    real, Toy = registry.kinds, registry.load("benchmark", "toy")
+    own = {"name": "numbers", "voters": (), "sensors": (), "winds": (), "detection_time_limit_s": lambda self, n: 5.0}
+    Numbers = type("Numbers", (Toy,), {**own, "fault_units": FaultUnits(unit="", admissible=2.0, sensor_range=9.0)})
+    point = type("Point", (), {"load": staticmethod(lambda: Numbers), "value": "tests:Numbers"})
+    monkeypatch.setattr(
+        registry, "kinds", lambda family: real(family) | ({"numbers": point} if family == "benchmark" else {})
+    )
+
+
+def refusal(path):
+    with pytest.raises(CampaignError) as caught:
+        read_campaign(path)
+    return str(caught.value)
+
+
+def test_plain_sizes_make_the_waves(write):
+    campaign = read_campaign(write(TEXT))
+    units = registry.load("benchmark", "numbers").fault_units
+    jam, runaway, noise = (fault.wave(units) for fault in campaign.scenarios[0].faults)
+    assert (jam.offset, runaway.rate, runaway.clip, noise.sigma) == (1.5, 0.2, 9.0, 2.0)
+    again = read_campaign(write(TEXT.replace("amplitude: 1.5", "amplitude_percent: 75")))
+    assert again.scenarios[0].faults[0].wave(units).offset == 1.5
+
+
+def test_a_key_of_another_unit_is_refused_at_its_place(write):
+    message = refusal(write(TEXT.replace("amplitude: 1.5", "amplitude_deg_s: 1.5")))
+    assert "campaign.yaml:9:46: unknown key 'amplitude_deg_s'. Did you mean" in message
+    assert "amplitude_percent, amplitude" in message
+    message = refusal(write(TEXT.replace("rate_per_s: 0.2", "rate_deg_s2: 0.2")))
+    assert "campaign.yaml:10:51: unknown key 'rate_deg_s2'" in message
+    message = refusal(write(jam_a="jam_b", amplitude_percent="amplitude"))
+    assert "unknown key 'amplitude'. Did you mean 'amplitude_percent'?" in message or "'amplitude_deg_s'" in message
+
+
+def test_messages_name_the_keys_of_the_benchmark(write):
+    text = TEXT.replace("amplitude: 1.5", "amplitude: 1.5, amplitude_percent: 3")
+    assert "need exactly one of amplitude_percent | amplitude, got amplitude_percent, amplitude" in refusal(write(text))
+    text = TEXT.replace("amplitude: 1.5", "mode: replace")
+    assert "needs freeze: true | hold_value | hold_value_percent" in refusal(write(text))
+
+
+@pytest.mark.parametrize("key", ["voter", "sensors", "wind"])
+def test_choosing_where_there_is_nothing_to_choose_is_refused(write, key):
+    message = refusal(write(TEXT + f"{key}: median\n"))
+    assert f"benchmark 'numbers' has no {key} to choose; remove this key" in message
+    assert getattr(read_campaign(write(TEXT)), key) == ""
+
+
+def test_what_is_not_there_is_not_described(write):
+    text = describe(plan(read_campaign(write(TEXT))))
+    assert "Benchmark numbers, plant lateral_lpv\n" in text
+    assert "runaway rate_per_s=0.2 on r2 at 10 s" in text
+
+
+def test_the_limit_of_a_flight_runs_from_its_last_onset(write):
+    (scenario,) = plan(read_campaign(write(TEXT))).scenarios
+    assert scenario.limit_s == 12.0 - 4.0 + 5.0
+    assert scenario.event_limits_s == (5.0, 5.0, 5.0)
+    text = TEXT.replace("    manoeuvre: cruise\n", "    manoeuvre: cruise\n    detection_time_limit_s: 3\n")
+    (scenario,) = plan(read_campaign(write(text))).scenarios
+    assert scenario.limit_s == 3.0
+
+
+def test_the_schema_knows_the_keys_of_every_unit():
+    faults = campaign_schema()["$defs"]["ScenarioEntry"]["properties"]["faults"]["items"]["anyOf"]
+    keys = {key for fault in faults for key in fault["properties"]}
+    assert {"amplitude_deg_s", "amplitude", "rate_deg_s2", "rate_per_s", "variance_deg2_s2", "variance"} <= keys
