@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint wheel scores clean
+.PHONY: demo test lint wheel scores bench clean
 
 demo: $(VENV)/ready
 	$(BIN)/fddbench run campaigns/smoke.yaml --fresh
@@ -28,6 +28,10 @@ scores: $(VENV)/ready
 	  $(BIN)/fddbench run campaigns/$$name.yaml --fresh --quiet && mkdir -p reports/$$name \
 	  && $(BIN)/fddbench scores results/$$name > reports/$$name/scores.yaml || exit 1; done
 
+# how fast the engine is beside others, on a machine that does nothing else
+bench: $(VENV)/ready-bench
+	$(BIN)/python -m tests.bench
+
 $(VENV)/ready: pyproject.toml
 	$(PYTHON) -c "import sys; sys.exit(None if sys.version_info >= (3, 11) else 'fddbench needs Python 3.11 or newer: make PYTHON=python3.12 ...')"
 	$(PYTHON) -m venv $(VENV)
@@ -36,6 +40,12 @@ $(VENV)/ready: pyproject.toml
 
 $(VENV)/ready-dev: $(VENV)/ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[dev]"
+	touch $@
+
+# peers that have no wheel for this machine are skipped with a word
+$(VENV)/ready-bench: $(VENV)/ready
+	for peer in control heyoka jax jsbsim; do \
+	  $(BIN)/python -m pip install --quiet --disable-pip-version-check --only-binary :all: $$peer || true; done
 	touch $@
 
 clean:

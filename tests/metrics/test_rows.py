@@ -22,10 +22,19 @@ def columns(
     scoring, score, constants, *, faulty=("r1", "r2"), limit_s=0.36, departed=NEVER, status="ok", sample_s=0.01
 ):
     found = score_columns(
-        scoring, score, constants, truth=Truth(faulty_sites=[faulty], limit_s=[limit_s]), sites=SITES,
+        scoring, score, constants, truth=Truth(faulty_sites=[faulty], limit_s=[limit_s], scenario=np.array([0])), sites=SITES,
         status=[status], departed=np.array([departed]), sample_s=sample_s,
     )  # fmt: skip
-    return {name: values[0] for name, values in found.items()}
+    return {name: values[0].as_py() for name, values in found.items()}
+
+
+def one_event(*scored, event, limit_s, end):
+    """Columns of one fault of the only case."""
+    found = event_columns(
+        *scored, cases=np.array([0]), event=event, limit_s=limit_s, end=np.array([end]), sample_s=0.01,
+        valid=np.array([True]),
+    )  # fmt: skip
+    return {name: values[0].as_py() for name, values in found.items()}
 
 
 def test_the_first_reason_not_to_score_wins():
@@ -99,7 +108,7 @@ def test_an_event_that_ends_before_its_limit_is_censored_and_one_after_it_is_mis
     given = scored(events=events)
 
     def event(number, limit_s, **more):
-        return event_columns(*given, case=0, event=number, limit_s=limit_s, sample_s=0.01, **{"end": 1000.0, **more})
+        return one_event(*given, event=number, limit_s=limit_s, **{"end": 1000.0, **more})
 
     assert (event(0, 0.36)["censored"], event(0, 0.36)["missed"]) == (True, None)
     assert (event(0, 0.1)["censored"], event(0, 0.1)["missed"]) == (False, True)
@@ -110,5 +119,5 @@ def test_an_event_that_ends_before_its_limit_is_censored_and_one_after_it_is_mis
 def test_an_event_cut_off_by_a_departure_exactly_at_its_limit_is_censored():
     """Departed at 336: the last scored sample is 335, one before the limit of 36 samples could pass."""
     events = [EventTimes(300.0, NEVER, (0.0, 1.0, 0.0))]
-    row = event_columns(*scored(events=events), case=0, event=0, limit_s=0.36, end=335.0, sample_s=0.01)
+    row = one_event(*scored(events=events), event=0, limit_s=0.36, end=335.0)
     assert row["censored"]

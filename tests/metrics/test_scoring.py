@@ -67,15 +67,19 @@ def score_of(flight, *, tail=4):
     status, reason = statuses(scoring, state, constants, departed=np.array([departed]), infeasible=[""], errors=[""])
     limit_s = round(flight["limit"] * T, 9) if faults else None
     columns = score_columns(
-        scoring, state, constants, truth=Truth(faulty_sites=[truly], limit_s=[limit_s]), sites=SITES, status=status,
-        departed=np.array([departed]), sample_s=T,
+        scoring, state, constants, truth=Truth(faulty_sites=[truly], limit_s=[limit_s], scenario=np.array([0])),
+        sites=SITES, status=status, departed=np.array([departed]), sample_s=T,
     )  # fmt: skip
     end = min(flight["n"] - 1.0, departed)
     events = [
-        event_columns(scoring, state, constants, case=0, event=j, limit_s=limit_s, end=end, sample_s=T)
+        event_columns(
+            scoring, state, constants, cases=np.array([0]), event=j, limit_s=limit_s, end=np.array([end]), sample_s=T,
+            valid=np.array([True]),
+        )
         for j in range(len(faults))
-    ]
-    return {name: values[0] for name, values in columns.items()}, status[0], reason[0], events
+    ]  # fmt: skip
+    first, *events = ({name: values[0].as_py() for name, values in each.items()} for each in (columns, *events))
+    return first, status[0], reason[0], events
 
 
 def reference(flight):

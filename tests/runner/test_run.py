@@ -96,8 +96,8 @@ def test_one_run_per_folder(everything, tmp_path):
 @pytest.mark.parametrize("sign", [signal.SIGINT, signal.SIGKILL])
 def test_interrupted_or_killed_it_continues_to_the_same_rows(everything, tmp_path, sign):
     run_campaign(everything, tmp_path / "reference", jobs=1)
-    # longer flights, so that the signal comes in the middle
-    text = TEXT.replace("duration_s: 3.0", "duration_s: 12.0").replace("runs: 2", "runs: 12")
+    # more and longer flights, so that the signal comes in the middle
+    text = TEXT.replace("duration_s: 3.0", "duration_s: 12.0").replace("runs: 2", "runs: 300")
     path, out = write(tmp_path, text), tmp_path / "out"
     command = [sys.executable, "-m", "fddbench", "run", str(path), "--out", str(out), "--jobs", "2"]
     process = subprocess.Popen(

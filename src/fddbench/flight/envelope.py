@@ -51,7 +51,8 @@ def infeasible_reasons(mass_kg: Rows, altitude_ft: Rows, v_cas_kt: Rows) -> tupl
         (lift > buffet, "buffet: lift coefficient {0:.2f} > {1:.2f}", lift, buffet),
         (drag > thrust, "thrust: {0:.0f} kN needed, {1:.0f} kN available", drag / 1e3, thrust / 1e3),
     )
-    return tuple(
-        next((text.format(value[i], limit[i]) for broken, text, value, limit in tests if broken[i]), "")
-        for i in range(len(number))
-    )
+    reasons = [""] * len(number)
+    for broken, text, value, limit in reversed(tests):  # of several the first has the last word
+        for i in np.flatnonzero(broken).tolist():
+            reasons[i] = text.format(value[i], limit[i])
+    return tuple(reasons)

@@ -6,29 +6,34 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+import pyarrow as pa
 
 from fddbench.interfaces import Floats
 from fddbench.metrics.scoring import NEVER, Scoring
 
 __all__ = ["Truth", "event_columns", "score_columns", "statuses"]
 
-Columns = dict[str, list[Any]]
+Columns = dict[str, pa.Array]
+Cases = npt.NDArray[np.int64]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Truth:
-    """What is true of every case of a batch, one entry a case.
+    """What is true of the cases of a batch.
 
     Attributes
     ----------
     faulty_sites : sequence of tuple of str
-        Distinct faulty sites in site order.
+        Distinct faulty sites in site order, one entry a scenario.
     limit_s : sequence of float or None
-        Detection time limit [s]; None: healthy flight.
+        Detection time limit [s]; None: healthy flight. One entry a scenario.
+    scenario : (n_cases,) array of int
+        Position of each case's scenario in both.
     """
 
     faulty_sites: Sequence[tuple[str, ...]]
     limit_s: Sequence[float | None]
+    scenario: Cases
 
 
 def statuses(
@@ -75,21 +80,22 @@ def score_columns(
     """Score columns of one detector, one entry a case; all null where the status is not ok."""
     x, c = scoring.states.unpack(score), scoring.constants.unpack(constants)
     ok = np.array([name == "ok" for name in status], dtype=bool)
-    n_faulty = np.array([len(faulty) for faulty in truth.faulty_sites], dtype=np.int64)
+    n_faulty = np.array([len(names) for names in truth.faulty_sites], dtype=np.int64)[truth.scenario]
     of_fault = ok & (n_faulty > 0)
-    limit_s = np.array([np.nan if limit is None else limit for limit in truth.limit_s])
+    limit_s = np.array([np.nan if limit is None else limit for limit in truth.limit_s])[truth.scenario]
     end = np.minimum(c.last, departed - 1.0)
     n_declared = np.round(np.where(ok, x.declared.sum(axis=0), 0.0)).astype(np.int64)
     bits = 2 ** np.arange(len(sites), dtype=np.int64)
     declared = (bits[:, np.newaxis] * (x.declared > 0.0)).sum(axis=0)
     faulty = np.array([sum(int(bits[sites.index(s)]) for s in names) for names in truth.faulty_sites], dtype=np.int64)
+    faulty = faulty[truth.scenario]
     columns: Columns = {
         "flight_s": _nullable(_seconds(end, sample_s), ok),
-        "n_faulty": n_faulty.tolist(),
-        "faulty_sites": ["+".join(names) or None for names in truth.faulty_sites],
+        "n_faulty": pa.array(n_faulty),
+        "faulty_sites": _texts(["+".join(names) or None for names in truth.faulty_sites], truth.scenario),
         "onset_s": _nullable(_seconds(c.k0, sample_s), n_faulty > 0),
         "n_declared": _nullable(n_declared, ok),
-        "declared_sites": _nullable(_names(declared, sites), ok & (declared > 0)),
+        "declared_sites": _names(declared, sites, ok & (declared > 0)),
         "false_alarm": _nullable(x.false_alarm > 0.0, ok),
         "margin_healthy": _nullable(x.margin_healthy, ok & (c.k0 > 0.0)),
         "classified": _nullable(n_declared == n_faulty, of_fault),
@@ -102,19 +108,21 @@ def score_columns(
     return columns | times | {"detection_time_limit_s": _nullable(limit_s, ~np.isnan(limit_s))}
 
 
-def _nullable(values: Any, valid: Any) -> list[Any]:
-    """Plain Python values, None where not valid."""
-    found = np.asarray(values).astype(object)
-    found[~np.asarray(valid, dtype=bool)] = None
-    return list(found)
+def _nullable(values: Any, valid: Any) -> pa.Array:
+    """Values, null where not valid."""
+    return pa.array(np.asarray(values), mask=~np.asarray(valid, dtype=bool), from_pandas=False)
 
 
-def _names(codes: npt.NDArray[np.int64], sites: Sequence[str]) -> npt.NDArray[np.object_]:
-    """Names joined by + of sites given as bits."""
-    known = {
-        code: "+".join(site for i, site in enumerate(sites) if code >> i & 1) for code in np.unique(codes).tolist()
-    }
-    return np.array([known[code] for code in codes.tolist()], dtype=object)
+def _texts(known: Sequence[str | None], positions: Cases, valid: Any = True) -> pa.Array:
+    """Texts by their positions in a few known ones, null where not valid."""
+    return pa.array(known, pa.string()).take(_nullable(positions, np.broadcast_to(valid, positions.shape)))
+
+
+def _names(codes: Cases, sites: Sequence[str], valid: Any) -> pa.Array:
+    """Names joined by + of sites given as bits, null where not valid."""
+    known, positions = np.unique(codes, return_inverse=True)
+    names = ["+".join(site for i, site in enumerate(sites) if code >> i & 1) for code in known.tolist()]
+    return _texts(names, positions, valid)
 
 
 def _seconds(samples: Floats, sample_s: float) -> Floats:
@@ -157,28 +165,27 @@ def event_columns(
     score: Floats,
     constants: Floats,
     *,
-    case: int,
+    cases: Cases,
     event: int,
     limit_s: float,
-    end: float,
+    end: Floats,
     sample_s: float,
-) -> dict[str, Any]:
-    """Times of one fault of one case, scored on its own sites and interval; the case must have the status ok.
+    valid: npt.NDArray[np.bool_],
+) -> Columns:
+    """Times of one fault of some cases, scored on its own sites and interval; all null where not valid.
 
-    `end` is the last sample of the flight that was scored.
+    `cases` are positions in the batch, `end` the last sample of their flights that was scored, (n,).
     """
     x, c = scoring.states.unpack(score), scoring.constants.unpack(constants)
     interval = scoring.event.unpack(getattr(c, f"event_{event}"))
-    last = np.minimum(interval.last[case : case + 1], end)
-    alarm, detection = (getattr(x, f"{name}_{event}")[case : case + 1] for name in ("event_alarm", "event_detection"))
-    columns = _times(
-        alarm,
-        detection,
-        k0=interval.first[case : case + 1],
-        end=last,
-        limit_s=np.array([limit_s]),
+    times = _times(
+        getattr(x, f"event_alarm_{event}")[cases],
+        getattr(x, f"event_detection_{event}")[cases],
+        k0=interval.first[cases],
+        end=np.minimum(interval.last[cases], end),
+        limit_s=np.full(len(cases), limit_s),
         sample_s=sample_s,
-        valid=np.array([True]),
+        valid=valid,
     )
-    early = bool(getattr(x, f"early_{event}")[case] > 0.0)
-    return {name: values[0] for name, values in columns.items()} | {"false_alarm": early}
+    early = getattr(x, f"early_{event}")[cases] > 0.0
+    return times | {"false_alarm": _nullable(early, valid)}

@@ -1,6 +1,5 @@
 """What a worker does: read the frozen campaign, fly a chunk, write its shard, say what is in it."""
 
-from collections import Counter
 from functools import lru_cache
 from pathlib import Path
 from threading import Lock
@@ -24,9 +23,10 @@ from fddbench.runner.flight import Flyer, Outcome
 
 __all__ = ["fly_and_write", "flyer_of", "frozen", "rows_and_events"]
 
-Columns = dict[str, list[Any]]
+Columns = dict[str, pa.Array]
 Cases = npt.NDArray[np.int64]
 
+_SHARED = ("case", "scenario", "run", "detector", "status", "reason")
 _making = Lock()
 
 
@@ -76,7 +76,9 @@ def fly_and_write(folder: str, campaign_sha256: str, backend: str, case_spans: S
         rows_sha256=write_table(path / "rows" / name, rows),
         events=f"events/{name}" if len(events) else None,
         events_sha256=events_sha256,
-        statuses=dict(sorted(Counter(rows["status"].to_pylist()).items())),
+        statuses=dict(
+            sorted((entry["values"], entry["counts"]) for entry in rows["status"].value_counts().to_pylist())
+        ),
     )
 
 
@@ -89,18 +91,18 @@ def rows_and_events(flyer: Flyer, cases: Cases) -> tuple[pa.Table, pa.Table]:
     outcome = flyer.fly(flown) if able.any() else None
     schema = rows_schema([parameter.name for parameter in assembly.plan.benchmark.parameters])
     parts: list[pa.Table] = []
-    events: list[dict[str, Any]] = []
-    for detector in assembly.detectors:
+    events = [EVENTS.empty_table()]
+    rank: list[Cases] = []
+    for number, detector in enumerate(assembly.detectors):
         for mine, result in ((flown, outcome), (grounded, None)):
             if len(mine.cases):
                 columns = _columns(assembly, mine, result, detector)
                 parts.append(pa.Table.from_pydict(columns, schema=schema))
                 events += _events(assembly, mine, result, detector, columns)
+                rank.append(np.full(len(mine.cases), number))
     rows = pa.concat_tables(parts)
-    order = {name: i for i, name in enumerate(assembly.detectors)}
-    rank = np.array([order[name] for name in rows["detector"].to_pylist()], dtype=np.int64)
-    in_order = np.lexsort((rank, rows["case"].to_numpy()))
-    return rows.take(pa.array(in_order)).combine_chunks(), pa.Table.from_pylist(events, schema=EVENTS)
+    in_order = np.lexsort((np.concatenate(rank), rows["case"].to_numpy()))
+    return rows.take(pa.array(in_order)).combine_chunks(), pa.concat_tables(events).combine_chunks()
 
 
 def _columns(assembly: Assembly, batch: Batch, outcome: Outcome | None, detector: str) -> Columns:
@@ -127,50 +129,56 @@ def _columns(assembly: Assembly, batch: Batch, outcome: Outcome | None, detector
         departed=departed,
         sample_s=assembly.loop.bus.sample_s,
     )
-    return _who(assembly, batch, detector) | {"status": status, "reason": reason} | scores
+    said = {"status": pa.array(status, pa.string()), "reason": pa.array(reason, pa.string())}
+    return _who(assembly, batch, detector) | said | scores
 
 
 def _truth(assembly: Assembly, batch: Batch) -> Truth:
-    planned = [assembly.plan.scenarios[s] for s in batch.scenario]
-    return Truth(faulty_sites=[p.faulty_sites for p in planned], limit_s=[p.limit_s for p in planned])
+    planned = assembly.plan.scenarios
+    return Truth(
+        faulty_sites=[p.faulty_sites for p in planned], limit_s=[p.limit_s for p in planned], scenario=batch.scenario
+    )
 
 
 def _who(assembly: Assembly, batch: Batch, detector: str) -> Columns:
     """The columns that say which flight a row is of."""
-    planned = [assembly.plan.scenarios[s] for s in batch.scenario]
-    columns: Columns = {
-        "case": batch.cases.tolist(),
+    planned, where = assembly.plan.scenarios, pa.array(batch.scenario)
+    texts = {
         "scenario": [p.name for p in planned],
         "manoeuvre": [p.manoeuvre for p in planned],
         "fault": ["+".join(fault.kind for fault in p.faults) or None for p in planned],
-        "run": batch.run.tolist(),
         "detector": [detector] * len(planned),
     }
-    return columns | {f"p_{name}": values.tolist() for name, values in batch.parameters.items()}
+    columns = {name: pa.array(known, pa.string()).take(where) for name, known in texts.items()}
+    columns |= {"case": pa.array(batch.cases), "run": pa.array(batch.run)}
+    return columns | {f"p_{name}": pa.array(values) for name, values in batch.parameters.items()}
 
 
 def _events(
     assembly: Assembly, batch: Batch, outcome: Outcome | None, detector: str, columns: Columns
-) -> list[dict[str, Any]]:
+) -> list[pa.Table]:
     """Events of one detector: one per case and fault of scenarios whose faults are scored one by one."""
-    found: list[dict[str, Any]] = []
-    shared = ("case", "scenario", "run", "detector", "status", "reason")
-    for i, position in enumerate(batch.scenario):
+    found: list[pa.Table] = []
+    for position in np.unique(batch.scenario).tolist():
         planned = assembly.plan.scenarios[position]
         if not has_events(planned):
             continue
-        row = {name: columns[name][i] for name in shared}
-        end = float(planned.n_samples - 1)
+        cases = np.flatnonzero(batch.scenario == position)
+        shared = {name: columns[name].take(pa.array(cases)) for name in _SHARED}
+        ok, end = np.zeros(len(cases), dtype=bool), np.full(len(cases), planned.n_samples - 1.0)
+        score = assembly.scoring.start(len(batch.cases))
         if outcome is not None:
-            end = min(end, float(outcome.departed[i]) - 1.0)
+            score, end = outcome.scores[detector], np.minimum(end, outcome.departed[cases] - 1.0)
+            ok = np.array([status == "ok" for status in shared["status"].to_pylist()], dtype=bool)
         for number, fault in enumerate(planned.faults):
-            times: dict[str, Any] = {}
-            if outcome is not None and row["status"] == "ok":
-                times = event_columns(
-                    assembly.scoring, outcome.scores[detector], batch.score_constants,
-                    case=i, event=number, limit_s=planned.event_limits_s[number], end=end,
-                    sample_s=assembly.loop.bus.sample_s,
-                )  # fmt: skip
-            what = {"event": number + 1, "fault": fault.kind, "sites": "+".join(fault.sites)}
-            found.append(row | what | {"onset_s": fault.onset_s, "end_s": fault.end_s} | times)
+            times = event_columns(
+                assembly.scoring, score, batch.score_constants, cases=cases, event=number,
+                limit_s=planned.event_limits_s[number], end=end, sample_s=assembly.loop.bus.sample_s, valid=ok,
+            )  # fmt: skip
+            what: dict[str, Any] = {"event": number + 1, "fault": fault.kind, "sites": "+".join(fault.sites)}
+            what |= {"onset_s": fault.onset_s, "end_s": fault.end_s}
+            alike = {
+                name: pa.repeat(pa.scalar(value, EVENTS.field(name).type), len(cases)) for name, value in what.items()
+            }
+            found.append(pa.Table.from_pydict(shared | alike | times, schema=EVENTS))
     return found

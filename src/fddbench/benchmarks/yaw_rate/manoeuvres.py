@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from fddbench.blocks.linear import column
 from fddbench.flight.atmosphere import GRAVITY_M_S2
 from fddbench.interfaces import Floats
 
@@ -31,21 +32,26 @@ _TABLES: Mapping[str, tuple[tuple[float, float], ...]] = {
 _YAW_BANK_DEG, _YAW_ROLL_DEG_S, _YAW_HEADING_DEG, _YAW_BACK_S = 15.0, 4.0, 10.0, 30.0
 
 
-def _yaw_angle_mode(v_tas_m_s: float) -> tuple[tuple[float, float], ...]:
+def _yaw_angle_mode(v_tas_m_s: Floats) -> tuple[Floats, Floats]:
     """Heading +10 deg with at most 15 deg of bank, and back from 30 s on; faster aircraft hold the bank longer."""
     ramp_s = _YAW_BANK_DEG / _YAW_ROLL_DEG_S
     turn_deg_s = np.rad2deg(GRAVITY_M_S2 / v_tas_m_s * np.deg2rad(_YAW_BANK_DEG))
-    hold_s = max(_YAW_HEADING_DEG / float(turn_deg_s) - ramp_s, 0.0)
-    shape = ((0.0, 0.0), (ramp_s, 1.0), (ramp_s + hold_s, 1.0), (2.0 * ramp_s + hold_s, 0.0))
-    there = tuple((_START_S + t, _YAW_BANK_DEG * level) for t, level in shape)
-    return (*there, *((_YAW_BACK_S + t, -_YAW_BANK_DEG * level) for t, level in shape))
+    hold_s = np.maximum(_YAW_HEADING_DEG / turn_deg_s - ramp_s, 0.0)
+    none = np.zeros_like(hold_s)
+    shape_s = np.stack([none, none + ramp_s, ramp_s + hold_s, 2.0 * ramp_s + hold_s])
+    level = column((0.0, 1.0, 1.0, 0.0)) + none
+    time_s = np.concatenate([_START_S + shape_s, _YAW_BACK_S + shape_s])
+    return time_s, np.concatenate([_YAW_BANK_DEG * level, -_YAW_BANK_DEG * level])
 
 
 def bank_commands(manoeuvres: Sequence[str], v_tas_m_s: Floats) -> tuple[Floats, Floats]:
     """Times [s] and bank angles [deg] of the breakpoints, (KNOTS, n_cases) each, padded with the last value."""
     time_s, bank_deg = np.empty((2, KNOTS, len(manoeuvres)))
-    for i, name in enumerate(manoeuvres):
-        table = _yaw_angle_mode(float(v_tas_m_s[i])) if name == "yaw_angle_mode" else _TABLES[name]
-        padded = np.array([*table, *[table[-1]] * (KNOTS - len(table))])
-        time_s[:, i], bank_deg[:, i] = padded.T
+    names = np.array(manoeuvres, dtype=object)
+    for name in set(manoeuvres):
+        mine = names == name
+        table = _yaw_angle_mode(v_tas_m_s[mine]) if name == "yaw_angle_mode" else column(_TABLES[name]).swapaxes(0, 1)
+        for rows, values in zip((time_s, bank_deg), table, strict=True):
+            rows[: len(values), mine] = values
+            rows[len(values) :, mine] = values[-1]
     return time_s, bank_deg
