@@ -1,6 +1,7 @@
 """Machine code through llvmlite: which processor, how many lanes, and a loaded function. Optional: see `available`."""
 
 import ctypes
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
@@ -111,7 +112,12 @@ def load(identity: str, text: Callable[[], str], target: Machine) -> Loaded:
 
 @cache
 def _jit() -> Any:
-    return _binding().create_lljit_compiler()
+    """Linker of object files in memory.
+
+    JITLink puts code and constants into one stretch of memory. The older linker maps them apart, and a distance above 2 GB
+    overflows the 32-bit addresses of the small code model without a word.
+    """
+    return _binding().create_lljit_compiler(use_jit_link=sys.platform != "win32")
 
 
 def compile_object(text: str, target: Machine, optimise: int = 2) -> bytes:
