@@ -75,6 +75,18 @@ def _table(plan: Plan) -> Iterator[str]:
     if short:
         text = f"Undetected faults are censored, not missed, where the flight ends before its limit: {', '.join(short)}"
         yield fill(text, _WIDTH)
+    apart = [scenario.name for scenario in plan.scenarios if _begin_apart(scenario)]
+    if apart:
+        text = (
+            "Faults begin at different times, the rows count from the first with all sites faulty; read the events, which "
+            f"count each fault from its own onset: {', '.join(apart)}"
+        )
+        yield fill(text, _WIDTH)
+
+
+def _begin_apart(scenario: PlannedScenario) -> bool:
+    onsets = {fault.onset_s for fault in scenario.faults}
+    return len(onsets) > 1 or any(fault.delay_s > 0.0 for fault in scenario.faults)
 
 
 def _ends_before_limit(scenario: PlannedScenario, sample_s: float) -> bool:
