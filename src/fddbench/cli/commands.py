@@ -47,11 +47,11 @@ def run(args: argparse.Namespace) -> int:
 
 def _summary(folder: Path) -> None:
     """Print the summary table of a folder of results."""
-    from fddbench.metrics.summary import summarize
+    from fddbench.metrics.summary import NEEDS, summarize
     from fddbench.reporting.terminal import to_text
     from fddbench.results.table import load
 
-    rows = load(folder)
+    rows = load(folder, ["case", "reason", *NEEDS])
     print(to_text(summarize(rows)))
     failed = rows[~rows["status"].isin(["ok", "infeasible"])]
     for (detector, status, reason), group in failed.groupby(["detector", "status", "reason"], dropna=False):

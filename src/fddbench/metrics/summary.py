@@ -10,7 +10,7 @@ import pyarrow as pa
 from fddbench.interfaces import Floats
 from fddbench.metrics.intervals import clopper_pearson, poisson_rate
 
-__all__ = ["SUMMARY", "rate_with_interval", "summarize", "true_detection"]
+__all__ = ["NEEDS", "SUMMARY", "rate_with_interval", "summarize", "true_detection"]
 
 Value = int | float | str | bool | None
 Booleans = npt.NDArray[np.bool_]
@@ -22,6 +22,14 @@ _RATES = {
     "missed": "flights detected late or never, of those not censored; null: healthy scenario",
     "isolated": "flights that end with exactly the faulty sites declared; null: healthy scenario",
 }
+
+
+NEEDS = (
+    *("scenario", "detector", "status", "n_faulty", "onset_s", "flight_s"),
+    *("classified", "over_declared", "false_alarm", "missed", "isolated", "censored"),
+    *("detection_time_s", "detection_time_limit_s", "normalized_detection_time", "margin_healthy"),
+)
+"""Columns of the rows that `summarize` reads."""
 
 
 def _column(name: str, kind: pa.DataType, about: str) -> pa.Field:
@@ -71,7 +79,7 @@ def summarize(rows: pd.DataFrame) -> pd.DataFrame:
     Parameters
     ----------
     rows : DataFrame
-        As ``fddbench.load`` gives them; nulls are ``pd.NA`` or None.
+        As ``fddbench.load`` gives them, with the columns `NEEDS`; nulls are ``pd.NA`` or None.
 
     Returns
     -------

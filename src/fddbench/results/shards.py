@@ -2,6 +2,7 @@
 
 import hashlib
 import os
+from collections.abc import Sequence
 from pathlib import Path
 
 import pyarrow as pa
@@ -33,19 +34,20 @@ def write_table(path: Path, table: pa.Table) -> str:
     return hashlib.sha256(data).hexdigest()
 
 
-def read_table(path: Path, sha256: str) -> pa.Table:
-    """Table of a shard.
+def read_table(path: Path, sha256: str, columns: Sequence[str] | None = None) -> pa.Table:
+    """Table of a shard, all of it or some columns.
 
     Raises
     ------
     ResultsError
         The file is missing or is not the one that was written.
     """
-    found = file_sha256(path)
-    if found != sha256:
-        state = "is missing" if found is None else "is not the file that was written (its sha256 differs)"
+    data = path.read_bytes() if path.is_file() else None
+    if data is None or hashlib.sha256(data).hexdigest() != sha256:
+        state = "is missing" if data is None else "is not the file that was written (its sha256 differs)"
         raise ResultsError(f"{path} {state}; run the campaign again on this folder, it flies again what is lost")
-    return pq.read_table(path, page_checksum_verification=True)
+    chosen = None if columns is None else list(columns)
+    return pq.read_table(pa.BufferReader(data), columns=chosen, page_checksum_verification=True)
 
 
 def file_sha256(path: Path) -> str | None:

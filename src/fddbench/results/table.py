@@ -6,6 +6,7 @@ from typing import Any
 
 import pandas as pd
 import pyarrow as pa
+import pyarrow.compute as pc
 
 from fddbench.errors import ResultsError
 from fddbench.results.folder import provenance_of
@@ -16,10 +17,17 @@ from fddbench.results.shards import read_table
 __all__ = ["load", "load_events"]
 
 
-def load(folder: str | Path) -> pd.DataFrame:
+def load(folder: str | Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
     """Rows of a campaign, one per case and detector, in the order of cases and of the campaign's detectors.
 
     Arrow-backed, so that null stays null; the columns explain themselves in ``fddbench.results.schema``.
+
+    Parameters
+    ----------
+    folder : str or Path
+        Folder of results.
+    columns : sequence of str, optional
+        Only these, ``case`` and ``detector`` among them; a large campaign then takes a fraction of the memory.
 
     Raises
     ------
@@ -27,7 +35,7 @@ def load(folder: str | Path) -> pd.DataFrame:
         No folder of results, or a shard that is damaged.
     """
     path = Path(folder)
-    tables = _tables(path, "rows")
+    tables = _tables(path, "rows", columns)
     if not tables:
         raise ResultsError(f"{path} holds no rows yet; run the campaign first")
     return _sorted(pa.concat_tables(tables), path, ["case"])
@@ -39,20 +47,21 @@ def load_events(folder: str | Path) -> pd.DataFrame:
     return _sorted(pa.concat_tables([EVENTS.empty_table(), *_tables(path, "events")]), path, ["case", "event"])
 
 
-def _tables(folder: Path, which: str) -> Sequence[pa.Table]:
+def _tables(folder: Path, which: str, columns: Sequence[str] | None = None) -> Sequence[pa.Table]:
     provenance_of(folder)
     found = []
     for shard in shards(folder):
         name, sha256 = getattr(shard, which), getattr(shard, f"{which}_sha256")
         if name is not None:
-            found.append(read_table(folder / name, sha256))
+            found.append(read_table(folder / name, sha256, columns))
     return found
 
 
 def _sorted(table: pa.Table, folder: Path, by: list[str]) -> pd.DataFrame:
-    frame: pd.DataFrame = table.to_pandas(types_mapper=pd.ArrowDtype)
+    """Sorted by the first column, the detectors' order and the other columns; in Arrow, which copies once."""
     order: Any = provenance_of(folder).get("designs_sha256")
-    position = {name: i for i, name in enumerate(order)} if isinstance(order, dict) else {}
-    rank = frame["detector"].map(position).astype("int64")
-    keyed = frame.assign(_rank=rank).sort_values([by[0], "_rank", *by[1:]], kind="stable")
-    return keyed.drop(columns="_rank").reset_index(drop=True)
+    names = pa.array(list(order) if isinstance(order, dict) else [], pa.string())
+    keys = table.select(by).append_column("_rank", pc.index_in(table["detector"], value_set=names))
+    in_order = pc.sort_indices(keys, sort_keys=[(name, "ascending") for name in (by[0], "_rank", *by[1:])])
+    frame: pd.DataFrame = table.take(in_order).to_pandas(types_mapper=pd.ArrowDtype)
+    return frame
