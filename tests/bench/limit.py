@@ -14,6 +14,8 @@ from tests.bench.absent import AbsentError
 
 FLAGS = ("-O3", "-march=native", "-ffast-math", "-std=c++17", "-fPIC", "-w", "-Wno-psabi")
 
+EXACT = "-ffp-contract=off"
+
 
 def compiler() -> str:
     """Path of a C++ compiler, or `AbsentError`."""
@@ -24,8 +26,9 @@ def compiler() -> str:
 
 
 @cache
-def build(*, noise: bool, lanes: int):
-    """Function (n, first, last, state, after, constants, key) of the library."""
+def build(*, noise: bool, lanes: int, exact: bool = False):
+    """Function (n, first, last, state, after, constants, key) of the library; `exact`: rounded as ours, nothing fused."""
+    flags = [EXACT if flag == "-ffast-math" and exact else flag for flag in FLAGS]
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         (folder / "consts.h").write_text(_constants(), encoding="utf-8")
@@ -36,7 +39,7 @@ def build(*, noise: bool, lanes: int):
             f"-I{folder}",
             str(Path(__file__).with_name("step.cpp")),
         ]
-        subprocess.run([compiler(), *FLAGS, *given, "-c", "-o", part], check=True)
+        subprocess.run([compiler(), *flags, *given, "-c", "-o", part], check=True)
         # linked without -ffast-math, with which a library turns denormal numbers to zero in the whole process
         subprocess.run([compiler(), "-shared", "-o", library, part], check=True)
         fly = ctypes.CDLL(library).fly

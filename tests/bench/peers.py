@@ -31,9 +31,11 @@ def engine(state: np.ndarray, constants: np.ndarray, *, noise: bool = False, lan
     return fly
 
 
-def hand_written(state: np.ndarray, constants: np.ndarray, *, noise: bool = False, lanes: int = 16) -> Fly:
+def hand_written(
+    state: np.ndarray, constants: np.ndarray, *, noise: bool = False, lanes: int = 8, exact: bool = False
+) -> Fly:
     """C++ with vector types: the limit."""
-    function = limit.build(noise=noise, lanes=lanes)
+    function = limit.build(noise=noise, lanes=lanes, exact=exact)
     after = np.empty_like(state)
     n = state.shape[1]
 

@@ -28,8 +28,9 @@ PEERS: tuple[tuple[str, int, float | None, str], ...] = (
 
 def lines(*, repeats: int, turn_s: float) -> Iterator[Line]:
     """All comparisons: first the limit, then the peers."""
-    for noise in (False, True):
-        yield from _limit(noise, repeats=repeats, turn_s=turn_s)
+    yield from _limit("C++ by hand, fast-math", 0.8, repeats=repeats, turn_s=turn_s)
+    yield from _limit("  exact as ours, nothing fused", None, repeats=repeats, turn_s=turn_s, exact=True)
+    yield from _limit("  fast-math, noise on both sides", None, repeats=repeats, turn_s=turn_s, noise=True)
     yield from _peers(repeats=repeats, turn_s=turn_s)
 
 
@@ -37,10 +38,12 @@ def _way(make: Callable[..., peers.Fly], runs: int) -> Way:
     return Way(fly=make(*data(runs)), runs=runs)
 
 
-def _limit(noise: bool, *, repeats: int, turn_s: float) -> Iterator[Line]:
-    what = "C++ by hand, fast-math" + (", noise on both sides" if noise else "")
+def _limit(
+    what: str, asked: float | None, *, repeats: int, turn_s: float, noise: bool = False, exact: bool = False
+) -> Iterator[Line]:
+    made = {f"cpp{w}": partial(peers.hand_written, noise=noise, lanes=w, exact=exact) for w in (8, 16)}
     try:
-        hand = {f"cpp{w}": _way(partial(peers.hand_written, noise=noise, lanes=w), 64) for w in (8, 16)}
+        hand = {name: _way(make, 64) for name, make in made.items()}
     except AbsentError as reason:
         yield Line(what=what, note=str(reason))
         return
@@ -49,7 +52,7 @@ def _limit(noise: bool, *, repeats: int, turn_s: float) -> Iterator[Line]:
     note = (
         f"ours {_millions(found['ours'])}, theirs {_millions(found[best])} ({best[3:]} lanes, the better of 8 and 16)"
     )
-    yield Line(what=what, values=found["ours"] / found[best], asked=None if noise else 0.8, note=note)
+    yield Line(what=what, values=found["ours"] / found[best], asked=asked, note=note)
 
 
 def _peers(*, repeats: int, turn_s: float) -> Iterator[Line]:

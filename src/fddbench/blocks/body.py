@@ -7,8 +7,11 @@ from fddbench.blocks.emit import Vectors
 from fddbench.blocks.operations import OPERATIONS
 from fddbench.blocks.philox import PER_DRAW
 from fddbench.blocks.program import Program, depends_only_on
+from fddbench.blocks.schedule import LATENCIES, longest_first
 
 __all__ = ["Body", "Spec"]
+
+_DRAW, _LOAD = 60, 3  # cycles: the ten rounds of Philox; a vector of the workspace
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -116,23 +119,25 @@ class Body:
         return self._names[j]
 
     def _order(self) -> list[int]:
-        """Nodes depth first from the outputs, so that what is computed is used soon and registers suffice."""
-        program, seen, order = self.spec.program, set[int](), list[int]()
+        """Nodes that a sample needs, in the order they are written."""
+        program, seen = self.spec.program, set[int]()
         ringed = {row for ring in self._writes for row in range(ring.first, ring.first + ring.depth)}
-        roots = [node for row, node in enumerate(program.outputs["state"]) if row not in ringed]
-        roots += [node for ring in self._writes for node in (ring.index, ring.value)]
-        roots += [*program.outputs.get("finished", ()), *self.spec.recorded_nodes]
-        for root in roots:
-            stack = [(root, False)]
-            while stack:
-                node, ready = stack.pop()
-                if ready:
-                    order.append(node)
-                elif node not in seen:
-                    seen.add(node)
-                    stack.append((node, True))
-                    stack.extend((a, False) for a in reversed(self._arguments(node)))
-        return order
+        left = [node for row, node in enumerate(program.outputs["state"]) if row not in ringed]
+        left += [node for ring in self._writes for node in (ring.index, ring.value)]
+        left += [*program.outputs.get("finished", ()), *self.spec.recorded_nodes]
+        while left:
+            node = left.pop()
+            if node not in seen:
+                seen.add(node)
+                left.extend(self._arguments(node))
+        return longest_first(seen, self._arguments, self._latency)
+
+    def _latency(self, node: int) -> int:
+        """Cycles until a node's value can be used."""
+        op, _, value = self.spec.program.nodes[node]
+        if op == "input" and value[0] == "uniforms":  # type: ignore[index]
+            return _DRAW
+        return _LOAD if op == "input" or node in self._slots else LATENCIES.get(op, 2)
 
     def _arguments(self, node: int) -> tuple[int, ...]:
         """What a node needs inside the loop over samples."""
