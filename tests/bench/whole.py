@@ -157,8 +157,7 @@ def _many(folder: Path, repeats: int) -> Iterator[Line]:
     assembly = assembled(folder, MANY, MANY_S)
     flyer, parts = Flyer(assembly), batches(assembly, 2)
     flyer.prepare()
-    times: dict[int, list[float]] = {1: [], 2: []}
-    spent: dict[int, list[float]] = {1: [], 2: []}
+    times, spent = ({1: [], 2: []} for _ in range(2))
     for _ in range(repeats):
         for jobs, found in times.items():
             begun, used = time.perf_counter(), time.process_time()
