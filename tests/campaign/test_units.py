@@ -88,7 +88,18 @@ def test_the_limit_of_a_flight_runs_from_its_last_onset(write):
     assert scenario.event_limits_s == (5.0, 5.0, 5.0)
     text = TEXT.replace("    manoeuvre: cruise\n", "    manoeuvre: cruise\n    detection_time_limit_s: 3\n")
     (scenario,) = plan(read_campaign(write(text))).scenarios
-    assert scenario.limit_s == 3.0
+    assert scenario.limit_s == 12.0 - 4.0 + 3.0
+
+
+def test_the_limit_runs_from_when_the_last_site_turns_faulty(write):
+    """A delayed second site is the same flight as two faults, and has the same limit."""
+    one = "    faults: [{kind: jam, sites: [r1, r2], onset_s: 4.0, delay_s: 0.5, amplitude: 1}]\n"
+    first = "{kind: jam, sites: [r1], onset_s: 4.0, amplitude: 1}"
+    two = f"    faults: [{first}, {{kind: jam, sites: [r2], onset_s: 4.5, amplitude: 1}}]\n"
+    head = TEXT[: TEXT.index("    faults:")]
+    limits = {plan(read_campaign(write(head + faults))).scenarios[0].limit_s for faults in (one, two)}
+    assert limits == {5.5}
+    assert plan(read_campaign(write(head + one))).scenarios[0].event_limits_s == (5.5,)
 
 
 def test_the_schema_knows_the_keys_of_every_unit():

@@ -29,7 +29,7 @@ def folder(tmp_path, monkeypatch):
 
 def test_tuned_thresholds_keep_the_rate_when_the_tuning_flights_are_flown(folder, capsys):
     assert main(["tune", "hinf_identity", "tuning.yaml", "--false-alarm-rate", "0.05"]) == 0
-    assert "of 300 flights" in capsys.readouterr().out
+    assert "of these 300 flights" in capsys.readouterr().out
     design = yaml.safe_load((folder / "detectors" / "hinf_identity_tuned.yaml").read_text())
     assert {"campaign": "small_tuning", "seed": 9} in design["tuned_on"]
     assert main(["run", "tuning.yaml", "--quiet", "--jobs", "1", "--set", "detectors=[hinf_identity_tuned]"]) == 0

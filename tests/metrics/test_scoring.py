@@ -284,3 +284,17 @@ def test_a_plug_in_may_declare_with_booleans():
     verdict = Verdict(np.array([[True], [True], [False]]), np.ones(1))
     state = scoring.step(scoring.start(1), verdict, constants, 0.0, np.ones(1, bool))
     assert scoring.states.unpack(state).over_declared[0] == 1.0
+
+
+def test_a_site_that_another_fault_has_made_faulty_is_no_early_alarm():
+    """r1 fails at 2 and is declared; the second fault, on r1 and r2 from 5 on, is not declared before its time by that."""
+    scoring = Scoring(3, 2)
+    events = [EventTimes(2.0, NEVER, (1.0, 0.0, 0.0)), EventTimes(5.0, NEVER, (1.0, 1.0, 0.0))]
+    constants = scoring.rows(k0=2.0, n_faulty=2, last=9.0, events=events, n_cases=2)
+    state = scoring.start(2)
+    for k in range(10):
+        declared = np.array([[k >= 3, k >= 3], [k >= 6, k >= 4], [False, False]])
+        state = scoring.step(state, Verdict(declared, np.ones(2)), constants, float(k), np.ones(2, bool))
+    x = scoring.states.unpack(state)
+    assert x.early_0.tolist() == [0.0, 0.0]
+    assert x.early_1.tolist() == [0.0, 1.0]

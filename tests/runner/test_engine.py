@@ -9,10 +9,12 @@ from fddbench import gallery, registry
 from fddbench.blocks import kernel, llvm
 from fddbench.campaign.load import read_campaign
 from fddbench.errors import FddbenchError
+from fddbench.metrics.scoring import NEVER
 from fddbench.runner.assembly import assemble
 from fddbench.runner.eager import fly_eagerly
 from fddbench.runner.flight import Flyer
 from fddbench.runner.fused import Fused, why_opaque
+from fddbench.runner.work import rows_and_events
 
 needs_llvm = pytest.mark.skipif(not llvm.available(), reason="llvmlite is not installed")
 CAMPAIGNS = {
@@ -145,3 +147,27 @@ def test_a_detector_that_cannot_be_compiled_flies_to_the_same_rows(tmp_path):
 
 def test_a_detector_with_a_memory_of_its_own_is_opaque(assembly):
     assert "between two calls" in why_opaque(WithMemory(assembly.detectors["voting_monitor"]), assembly.loop.bus)
+
+
+class RaisesOnNan(WithIf):
+    """An opaque detector that does not bear what is not a number."""
+
+    def step(self, state, measured):
+        if not np.isfinite(measured.r_voted_deg_s).all():
+            raise ValueError("saw a NaN")
+        return self.inner.step(state, measured)
+
+
+@pytest.mark.parametrize("count", [1, 4])
+def test_a_departed_flight_has_one_status_whoever_flies_it(tmp_path, count):
+    text = TEXT.replace("wind: light", "wind: severe").replace("duration_s: 8.0", "duration_s: 60.0")
+    text = text.replace("gust_scale_ratio: {uniform: [0.0, 0.3]}", "gust_scale_ratio: {uniform: [9.0, 10.0]}")
+    assembly = assemble(read_campaign(write(tmp_path, text)))
+    batch = assembly.batch(np.arange(8))
+    batch = batch.take(np.flatnonzero([not reason for reason in batch.infeasible_reason]))
+    departs = Flyer(assembly).fly(batch).departed < NEVER
+    cases = batch.cases[np.argsort(~departs, kind="stable")][:count]
+    assembly.detectors["voting_monitor"] = RaisesOnNan(assembly.detectors["voting_monitor"])
+    rows = [rows_and_events(Flyer(assembly, backend), cases)[0].to_pylist() for backend in ("auto", "numpy")]
+    assert rows[0] == rows[1]
+    assert any(row["status"] == "diverged" for row in rows[0])

@@ -46,7 +46,11 @@ def store(name: str, body: bytes) -> None:
     try:
         folder().mkdir(parents=True, exist_ok=True)
         with tempfile.NamedTemporaryFile(dir=folder(), delete=False) as file:
+            aside = Path(file.name)
             file.write(sha256(body).digest() + body)
-        Path(file.name).replace(folder() / f"{name}.o")
     except OSError:
         return
+    try:
+        aside.replace(folder() / f"{name}.o")
+    except OSError:
+        aside.unlink(missing_ok=True)

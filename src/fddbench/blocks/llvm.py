@@ -50,13 +50,20 @@ class Machine:
         return f"{self.triple} {self.cpu} {self.features}"
 
 
+@cache
 def available() -> bool:
-    """Whether llvmlite is installed, in a version whose LLVM reads what `ir` writes."""
+    """Whether llvmlite is installed, in a version whose LLVM reads what `ir` writes, and can be loaded."""
     try:
         major, minor = version("llvmlite").split(".")[:2]
     except PackageNotFoundError:
         return False
-    return (int(major), int(minor)) >= _OLDEST
+    if (int(major), int(minor)) < _OLDEST:
+        return False
+    try:
+        _binding()
+    except (ImportError, OSError, RuntimeError):  # a broken installation is none
+        return False
+    return True
 
 
 @cache

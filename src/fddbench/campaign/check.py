@@ -78,15 +78,14 @@ def _table(plan: Plan) -> Iterator[str]:
     apart = [scenario.name for scenario in plan.scenarios if _begin_apart(scenario)]
     if apart:
         text = (
-            "Faults begin at different times, the rows count from the first with all sites faulty; read the events, which "
-            f"count each fault from its own onset: {', '.join(apart)}"
+            "Faults begin at different times: the rows count from the first onset to all sites declared, the events each "
+            f"fault from its own onset: {', '.join(apart)}"
         )
         yield fill(text, _WIDTH)
 
 
 def _begin_apart(scenario: PlannedScenario) -> bool:
-    onsets = {fault.onset_s for fault in scenario.faults}
-    return len(onsets) > 1 or any(fault.delay_s > 0.0 for fault in scenario.faults)
+    return len({fault.onset_s for fault in scenario.faults}) > 1
 
 
 def _ends_before_limit(scenario: PlannedScenario, sample_s: float) -> bool:

@@ -54,4 +54,4 @@ def design_text(data: Mapping[str, Any]) -> str:
     """File of a design: a first line that says what it is, then the keys, a line per row of a matrix."""
     about = data.get("about") or data["source"]
     body = yaml.safe_dump(dict(data), sort_keys=False, default_flow_style=None, allow_unicode=True, width=10_000)
-    return f"# {about}\n{body}"
+    return f"# {about.strip().splitlines()[0]}\n{body}"

@@ -11,7 +11,15 @@ from fddbench import registry
 from fddbench.campaign.meaning import Campaign, Scenario
 from fddbench.campaign.sampling import Runs, count, parameters
 from fddbench.campaign.streams import flight_stream, scenario_stream
-from fddbench.campaign.timing import faulty_sites, first_faulty_sample, flight_limit_s, flight_s, limit_s, samples
+from fddbench.campaign.timing import (
+    faulty_sites,
+    first_faulty_sample,
+    flight_limit_s,
+    flight_s,
+    last_onset_s,
+    limit_s,
+    samples,
+)
 from fddbench.faults.specification import FaultSpecification
 from fddbench.interfaces import Benchmark, Floats
 
@@ -161,4 +169,7 @@ def _planned(scenario: Scenario, campaign: Campaign, benchmark: Benchmark, *, fi
 def _event_limits(
     faults: Sequence[FaultSpecification], benchmark: Benchmark, override_s: float | None
 ) -> tuple[float, ...]:
-    return tuple(limit_s(len(fault.sites), benchmark, override_s=override_s) for fault in faults)
+    return tuple(
+        round(last_onset_s(fault) - fault.onset_s, 9) + limit_s(len(fault.sites), benchmark, override_s=override_s)
+        for fault in faults
+    )

@@ -3,8 +3,12 @@
 import argparse
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from fddbench.errors import FddbenchError, ResultsError
+
+if TYPE_CHECKING:
+    from fddbench.runner.assembly import Assembly
 
 __all__ = ["check", "cost", "init", "list_", "report", "run", "schema", "scores"]
 
@@ -92,17 +96,32 @@ def cost(args: argparse.Namespace) -> int:
     Operations by kind, multiply-add pairs, bytes of state and tables, and nanoseconds per step and flight in compiled
     code on this machine.
     """
-    from fddbench.campaign.load import read_campaign
-    from fddbench.runner.assembly import assemble
     from fddbench.runner.load import detector_load, in_words
 
-    assembly = assemble(read_campaign(args.campaign, [*args.overrides, f"detectors=[{args.detector}]"]))
+    assembly = _one_detector(args.detector, args.campaign)
     load = detector_load(assembly.detectors[args.detector], assembly.loop.bus)
     print(f"{args.detector}, at {assembly.loop.bus.sample_s} s: {in_words(load)}")
     if load.cost is not None:
         for name, number in load.cost.operations.items():
             print(f"  {name:<12}{number:>6}")
     return 0
+
+
+def _one_detector(design: str, campaign: Path | None) -> "Assembly":
+    """Assembly of a campaign with one detector; without a campaign the first shipped one whose benchmark feeds it."""
+    from fddbench import gallery
+    from fddbench.campaign.load import read_campaign
+    from fddbench.runner.assembly import assemble
+
+    shipped = [Path("smoke"), *(Path(path.stem) for path in sorted(gallery.folder("campaigns").glob("*.yaml")))]
+    first: FddbenchError | None = None
+    for path in [campaign] if campaign else shipped:
+        try:
+            return assemble(read_campaign(path, [f"detectors=[{design}]"]))
+        except FddbenchError as error:
+            first = first or error
+    assert first is not None
+    raise first
 
 
 def check(args: argparse.Namespace) -> int:

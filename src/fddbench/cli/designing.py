@@ -24,7 +24,7 @@ def design(args: argparse.Namespace) -> int:
     if args.output is None:
         print(cooked.text, end="")
     else:
-        _write(args.output, cooked.text)
+        _write(args.output, cooked.text, force=args.force)
         print(f"{args.output}: thresholds are untuned; next: fddbench tune {args.output} CAMPAIGN", file=sys.stderr)
     return 0
 
@@ -41,7 +41,6 @@ def tune(args: argparse.Namespace) -> int:
     from fddbench.campaign.yaml_nodes import read_yaml
     from fddbench.design.tuning import held_peaks, require_tuning, tuned, tuned_text
     from fddbench.interfaces import Tunable
-    from fddbench.metrics.intervals import clopper_pearson
     from fddbench.runner.assembly import assemble
     from fddbench.runner.observe import healthy_signals
 
@@ -64,17 +63,16 @@ def tune(args: argparse.Namespace) -> int:
     found = tuned(np.concatenate(peaks), args.false_alarm_rate)
     output = args.output or Path("detectors") / f"{chosen.name}_tuned.yaml"
     _write(output, tuned_text(chosen, read_yaml(path).data, found.thresholds, campaign), force=args.force)
-    low, high = (100.0 * float(end) for end in clopper_pearson(found.alarms, found.flights))
     print(f"thresholds: {', '.join(f'{value:.6g}' for value in found.thresholds)}")
     print(
-        f"false alarms: {found.alarms} of {found.flights} flights ({100.0 * found.alarms / found.flights:.3g} %, "
-        f"95 % interval {low:.2g} to {high:.2g} %), asked at most {100.0 * args.false_alarm_rate:g} %"
+        f"false alarms: {found.alarms} of these {found.flights} flights ({100.0 * found.alarms / found.flights:.3g} %), asked "
+        f"at most {100.0 * args.false_alarm_rate:g} %; other flights may give more, an evaluation tells"
     )
     print(output)
     return 0
 
 
-def _write(path: Path, text: str, *, force: bool = True) -> None:
+def _write(path: Path, text: str, *, force: bool) -> None:
     """Write a file, its folder made."""
     if path.exists() and not force:
         raise FddbenchError(f"{path} exists; name another file with --output, or replace it with --force")

@@ -49,10 +49,10 @@ def parser() -> argparse.ArgumentParser:
     cost = _add(subs, "cost", commands.cost)
     cost.add_argument("detector", metavar="DETECTOR", help="name of a design")
     cost.add_argument(
-        "--campaign", type=Path, default=Path("smoke"), metavar="CAMPAIGN.yaml",
-        help="campaign whose benchmark and sample time count (default: the shipped smoke campaign)",
+        "--campaign",
+        type=Path, metavar="CAMPAIGN.yaml",
+        help="campaign whose benchmark and sample time count (default: the first shipped one that feeds it)",
     )  # fmt: skip
-    cost.set_defaults(overrides=[])
 
     check = _add(subs, "check", commands.check)
     _campaign(check)
@@ -60,6 +60,7 @@ def parser() -> argparse.ArgumentParser:
     design = _add(subs, "design", designing.design)
     design.add_argument("design", type=Path, metavar="FILE", help="design file with a recipe")
     design.add_argument("--output", type=Path, metavar="FILE", help="where to write the design (default: print it)")
+    design.add_argument("--force", action="store_true", help="replace the file when it exists")
     _tune(_add(subs, "tune", designing.tune))
 
     _add(subs, "list", commands.list_)

@@ -50,6 +50,8 @@ def cook(path: Path) -> Cooked:
             f"{path} has no recipe. Add `recipe: {{plant, method, reference, window_s, confirm_s}}`; "
             "the shipped detectors/hinf_identity.yaml is an example."
         )
+    if document.get("kind") != "hinf_filter":
+        raise DesignError(f"{path} is a design of kind {document.get('kind')!r}; recipes make hinf_filter designs")
     mistakes, written, recipe = [], None, None
     try:
         written = DesignFile.model_validate_json(json.dumps(document.data), strict=True)
@@ -119,7 +121,13 @@ def _plant(given: str | Mapping[str, Any]) -> UncertainPlant:
             raise DesignError(
                 f"no matrix of a plant is called {sorted(unknown)}; known: {list(UncertainPlant.__dataclass_fields__)}"
             )
-        return UncertainPlant(**{name: np.array(rows) for name, rows in given.items()})
+        try:
+            return UncertainPlant(**{name: np.array(rows, dtype=float) for name, rows in given.items()})
+        except (TypeError, ValueError) as error:
+            raise DesignError(
+                f"recipe.plant makes no plant: {error}. A, Bf, Bd, B, C, Df, Dd and D are needed, as matrices with rows of "
+                "equal length; the uncertainty channel is zero where it is not given"
+            ) from error
     matrices = getattr(registry.load("benchmark", given), "matrices", None)
     if matrices is None:
         raise DesignError(f"benchmark {given!r} offers no matrices to design for; give them under recipe.plant")

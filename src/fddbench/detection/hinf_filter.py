@@ -60,8 +60,8 @@ class HinfFilter:
     Model assumed: the linear plant that the filter was designed for, whatever the design: robust H∞ filters and exact
     inverses are the same kind with other numbers. Blind to what its window averages out; noisy with disturbances in the
     direction of the faults, and off by the uncertainty times the inputs. Knobs: the window trades noise for delay, the
-    thresholds (``fddbench tune``) false alarms for misses. Cost: n_x (n_x + n_y + n_u) products, and one sum per sample of
-    the window and residual.
+    thresholds (``fddbench tune``) false alarms for misses. Cost: (n_x + n_r) (n_x + n_y + n_u) products, and one sum per
+    sample of the window and residual.
 
     References
     ----------

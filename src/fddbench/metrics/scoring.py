@@ -6,6 +6,7 @@ onsets and declarations are sample numbers and are compared as such.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
 
 import numpy as np
 
@@ -94,11 +95,14 @@ class Scoring:
     def _events(self, x: Rows, c: Rows, declared: Rows, sample: Rows, active: Rows) -> Mapping[str, Rows]:
         """First alarm and detection of every fault, on its own sites and in its own interval, and alarms before it."""
         after = {}
-        for j in range(self.n_events):
-            event = self.event.unpack(getattr(c, f"event_{j}"))
+        events = [self.event.unpack(getattr(c, f"event_{j}")) for j in range(self.n_events)]
+        for j, event in enumerate(events):
             within = active & (sample >= event.first) & (sample <= event.last)
             hits, own = total(declared * event.own), total(event.own)
-            early = active & (sample < event.first) & (hits > 0.0)
+            # a site that another fault has made faulty is rightly declared before this one
+            others = [np.where(sample >= other.first, other.own, 0.0) for i, other in enumerate(events) if i != j]
+            innocent = event.own * (1.0 - reduce(np.maximum, others, np.zeros_like(event.own)))
+            early = active & (sample < event.first) & (total(declared * innocent) > 0.0)
             after[f"early_{j}"] = np.where(early, 1.0, getattr(x, f"early_{j}"))
             after[f"event_alarm_{j}"] = _first(getattr(x, f"event_alarm_{j}"), within & (hits > 0.0), sample)
             after[f"event_detection_{j}"] = _first(getattr(x, f"event_detection_{j}"), within & (hits == own), sample)

@@ -34,10 +34,15 @@ class DetectorFlight:
         Cases.
     recorded : sequence of str
         Outputs to keep; those that begin with another name are left to others.
+    alone : bool
+        Whether a case flown alone here is the last word. Signals recorded from compiled flights show not-a-number after a
+        departure, so what raises on them is flown again.
     """
 
-    def __init__(self, assembly: Assembly, name: str, batch: Batch, recorded: Sequence[str] = ()) -> None:
-        self.assembly, self.name, self.batch = assembly, name, batch
+    def __init__(
+        self, assembly: Assembly, name: str, batch: Batch, recorded: Sequence[str] = (), *, alone: bool = True
+    ) -> None:
+        self.assembly, self.name, self.batch, self.alone = assembly, name, batch, alone
         self.score = assembly.scoring.start(len(batch.cases))
         self.raised = ""
         self.kept: dict[str, list[Floats]] = {full: [] for full in recorded if full.startswith(f"{name}:")}
@@ -48,7 +53,7 @@ class DetectorFlight:
 
     def step(self, measured: SimpleNamespace, sample: float, departed: Floats) -> None:
         """Verdict on one sample, scored."""
-        if self.raised:
+        if self.raised or not (sample < departed).any():
             return
         n_cases = len(self.batch.cases)
         try:
@@ -70,10 +75,10 @@ class DetectorFlight:
     def finish(self) -> tuple[Floats, list[str]]:
         """Final score and what was raised, case by case."""
         n_cases = len(self.batch.cases)
-        if not self.raised or n_cases == 1:
+        if not self.raised or (n_cases == 1 and self.alone):
             return self.score, [self.raised] * n_cases
         # halves, so that the sound cases of a large batch still fly side by side
-        halves = np.array_split(np.arange(n_cases), 2)
+        halves = [half for half in np.array_split(np.arange(n_cases), 2) if len(half)]
         parts = [_fly(self.assembly, self.batch.take(half), [self.name], ())[2][0].finish() for half in halves]
         return np.concatenate([score for score, _ in parts], axis=1), [text for _, texts in parts for text in texts]
 

@@ -110,7 +110,7 @@ class Flyer:
         )
         needed = self._needed(recorded)
         compiled, end = self.kernel(needed), int(samples.max())
-        opaque = [DetectorFlight(assembly, name, batch, recorded) for name in self.opaque]
+        opaque = [DetectorFlight(assembly, name, batch, recorded, alone=False) for name in self.opaque]
         kept: dict[str, list[Floats]] = {name: [] for name in needed if name in recorded}
         step = _TILE if needed else end
         for first in range(0, end, step):

@@ -6,6 +6,7 @@ from fddbench.benchmarks.jet_engine.loop import JetEngineLoop
 from fddbench.benchmarks.jet_engine.manoeuvres import DURATIONS_S
 from fddbench.benchmarks.jet_engine.plant import MATRICES
 from fddbench.benchmarks.jet_engine.uncertainty import SETS
+from fddbench.errors import FddbenchError
 from fddbench.interfaces import FaultUnits, Floats, Options, Parameter
 
 __all__ = ["JetEngine"]
@@ -44,4 +45,8 @@ class JetEngine:
 
     def loop(self, options: Options) -> JetEngineLoop:
         """Engine, faults and disturbances for these options."""
+        if options.substeps != 1:
+            raise FddbenchError(
+                f"the jet engine is stepped exactly for its discretisation: remove substeps = {options.substeps}"
+            )
         return JetEngineLoop(options, self.sites, self.fault_units)
