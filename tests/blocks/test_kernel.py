@@ -186,3 +186,11 @@ def test_llvmlite_is_imported_at_the_first_compilation_only(monkeypatch: pytest.
     monkeypatch.setattr(builtins, "__import__", spy)
     build(_program(), backend="numpy", **DRAWS).fly(**_flight(2), first=0, end=3)
     assert not [name for name in wanted if name.startswith("llvmlite")]
+
+
+def test_a_broken_llvmlite_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken() -> None:
+        raise ImportError("libLLVM is missing")
+
+    monkeypatch.setattr(llvm, "_binding", broken)
+    assert not llvm.available()

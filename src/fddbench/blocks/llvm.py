@@ -50,7 +50,6 @@ class Machine:
         return f"{self.triple} {self.cpu} {self.features}"
 
 
-@cache
 def available() -> bool:
     """Whether llvmlite is installed, in a version whose LLVM reads what `ir` writes, and can be loaded."""
     try:
