@@ -1,6 +1,6 @@
 """Scoring inside the flight: extremes and integers only, so that no signal has to be stored.
 
-The conventions are those of ARCHITECTURE.md's table of columns: k0 is the first faulty sample, n the number of declared sites,
+The conventions are those of the columns in ``fddbench.results.schema``: k0 is the first faulty sample, n the number of declared sites,
 onsets and declarations are sample numbers and are compared as such.
 """
 

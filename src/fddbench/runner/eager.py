@@ -73,7 +73,7 @@ class DetectorFlight:
             self.raised = reason_of(error)
 
     def finish(self) -> tuple[Floats, list[str]]:
-        """Final score and what was raised, case by case."""
+        """Final score, (n_score, n_cases), and what was raised for each case ("": nothing)."""
         n_cases = len(self.batch.cases)
         if not self.raised or (n_cases == 1 and self.alone):
             return self.score, [self.raised] * n_cases
