@@ -1,7 +1,7 @@
 """Scoring inside the flight: extremes and integers only, so that no signal has to be stored.
 
-The conventions are those of the columns in ``fddbench.results.schema``: k0 is the first faulty sample, n the number of declared sites,
-onsets and declarations are sample numbers and are compared as such.
+The conventions are those of the columns in ``fddbench.results.schema``: k0 is the first faulty sample, n the number of
+declared sites, onsets and declarations are sample numbers and are compared as such.
 """
 
 from collections.abc import Mapping, Sequence
