@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fddbench.campaign.model import Dispersions, Distribution, MonteCarlo, Normal, TruncatedNormal
+from fddbench.campaign.rules.model import Dispersions, Distribution, MonteCarlo, Normal, TruncatedNormal
 from fddbench.campaign.sampling import count, digits, parameters
 from fddbench.interfaces import Parameter
 

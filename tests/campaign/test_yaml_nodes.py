@@ -4,9 +4,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fddbench.campaign.canonical import canonical_text
-from fddbench.campaign.scalars import resolve
-from fddbench.campaign.yaml_nodes import parse
+from fddbench.campaign.reading.canonical import canonical_text
+from fddbench.campaign.reading.scalars import resolve
+from fddbench.campaign.reading.yaml_nodes import parse
 from fddbench.errors import CampaignError
 
 words = st.text(st.characters(codec="utf-8", exclude_categories=["Cc", "Cs", "Cn", "Co"]), max_size=30)

@@ -4,7 +4,7 @@ import pytest
 import yaml
 
 from fddbench import gallery
-from fddbench.campaign.designs import read_design
+from fddbench.designs.design import read_design
 from fddbench.design.recipe import cook
 from fddbench.errors import CampaignError, DesignError
 

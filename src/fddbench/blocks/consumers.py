@@ -6,16 +6,20 @@ Append only. A number that changes or is used twice changes every published flig
 from typing import Final
 
 __all__ = [
+    "DETECTOR_0",
     "DISPERSION",
     "DISTURBANCE",
     "FAULT_SLOTS",
     "FAULT_SLOT_0",
     "GUST",
     "MAX_ATTEMPTS",
+    "MOST_SITES",
     "SENSORS_A",
     "SENSORS_B",
     "START",
     "UNCERTAINTY_0",
+    "fault_number",
+    "sensor_number",
 ]
 
 SENSORS_A: Final = 0
@@ -32,7 +36,7 @@ DISTURBANCE: Final = 10
 """Disturbances of a sample, at most four."""
 
 FAULT_SLOT_0: Final = 64
-"""First fault of a scenario, the next ones follow: 64..95."""
+"""First fault of a scenario, its first four sites; the next faults follow: 64..95."""
 FAULT_SLOTS: Final = 32
 """Fault slots that have a number."""
 
@@ -40,3 +44,41 @@ DISPERSION: Final = 256
 """Dispersed parameters, first attempt of the rejection sampling; the next ones follow: 256..511."""
 MAX_ATTEMPTS: Final = 256
 """Attempts that have a number."""
+
+SENSORS_MORE_0: Final = 512
+"""Noise of the fourth redundant sensor and of the next ones, four of them a number: 512..575."""
+FAULT_SITES_MORE_0: Final = 1024
+"""Fifth fault site and the next ones, four of them a number, slot after slot: 1024 + 32 (site // 4 - 1) + slot, to 3039."""
+MOST_SITES: Final = 256
+"""Fault sites of a benchmark, and redundant sensors, that have a number."""
+DETECTOR_0: Final = 4096
+"""Detectors that draw random numbers; 4096..8191 are theirs, and two that take the same number see the same noise."""
+
+_FOUR: Final = 4
+
+
+def fault_number(slot: int, site: int) -> tuple[int, int]:
+    """Consumer, and place among its four numbers, of a site (by its position in the benchmark) in a fault slot.
+
+    >>> fault_number(0, 2), fault_number(1, 0), fault_number(1, 5)
+    ((64, 2), (65, 0), (1025, 1))
+    """
+    four, place = divmod(site, _FOUR)
+    if not (0 <= slot < FAULT_SLOTS and 0 <= site < MOST_SITES):
+        raise ValueError(f"need slot < {FAULT_SLOTS} and site < {MOST_SITES}, got {slot=}, {site=}")
+    return (FAULT_SLOT_0 + slot if four == 0 else FAULT_SITES_MORE_0 + FAULT_SLOTS * (four - 1) + slot), place
+
+
+def sensor_number(sensor: int) -> tuple[int, int]:
+    """Consumer, and place among its four numbers, of a redundant sensor; the fourth number of the first is another's.
+
+    >>> sensor_number(2), sensor_number(3), sensor_number(7)
+    ((0, 2), (512, 0), (513, 0))
+    """
+    if not 0 <= sensor < MOST_SITES:
+        raise ValueError(f"need a sensor below {MOST_SITES}, got {sensor}")
+    first = 3
+    if sensor < first:
+        return SENSORS_A, sensor
+    more, place = divmod(sensor - first, _FOUR)
+    return SENSORS_MORE_0 + more, place

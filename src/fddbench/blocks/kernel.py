@@ -66,6 +66,7 @@ class Kernel(Protocol):
 def build(
     program: Program, *, consumers: tuple[int, ...] = (), fault_consumers: tuple[int, ...] = (),
     recorded: tuple[str, ...] = (), backend: str = "auto", target: str = "host", lanes: int | None = None,
+    streams: tuple[tuple[int, str], ...] = (),
 ) -> Kernel:  # fmt: skip
     """Kernel of a step.
 
@@ -87,7 +88,7 @@ def build(
             "the back end 'llvm' needs llvmlite 0.45 or later: pip install llvmlite, or --backend numpy (the same bits)"
         )
     kept = program.keep("state", *(["finished"] if "finished" in program.outputs else []), *recorded)
-    streams = (*((c, "flight") for c in consumers), *((c, "scenario") for c in fault_consumers))
+    streams = streams or (*((c, "flight") for c in consumers), *((c, "scenario") for c in fault_consumers))
     if backend == "numpy" or not llvm.available():
         return Interpreted(kept, streams, recorded)
     return Compiled(kept, streams, recorded, target, lanes)

@@ -5,11 +5,10 @@ from math import ceil
 from textwrap import fill
 from typing import Any
 
-from fddbench.campaign.designs import Design
 from fddbench.campaign.meaning import Campaign
-from fddbench.campaign.model import Dispersions, Distribution
 from fddbench.campaign.plan import Plan, PlannedScenario
-from fddbench.campaign.references import CHOICES
+from fddbench.campaign.rules.model import Dispersions, Distribution
+from fddbench.designs.design import Design
 from fddbench.faults.specification import FaultSpecification
 
 __all__ = ["describe", "estimated_seconds"]
@@ -56,7 +55,7 @@ def _head(campaign: Campaign) -> Iterator[str]:
     yield f"Campaign {campaign.name} ({campaign.path})"
     if campaign.about:
         yield fill(" ".join(campaign.about.split()), _WIDTH, initial_indent="  ", subsequent_indent="  ")
-    choices = [f"{key} {getattr(campaign, key)}" for key in CHOICES if getattr(campaign, key)]
+    choices = [f"{key} {name}" for key, name in campaign.choices.items()]
     yield ", ".join([f"Benchmark {campaign.benchmark}", *choices])
     substeps = f", {campaign.substeps} integration steps each" if campaign.substeps > 1 else ""
     yield f"Purpose {campaign.purpose}, seed {campaign.seed}, sample {campaign.sample_s:g} s{substeps}"
@@ -150,7 +149,7 @@ def _distribution(distribution: Distribution) -> str:
 
 def _design(design: Design) -> Iterator[str]:
     seen = ", ".join(f"{entry.campaign} seed {entry.seed}" for entry in design.tuned_on) or "no campaign"
-    text = f"{design.name} ({design.kind}): {' '.join(design.source.split()).rstrip('.')}; tuned on {seen}"
+    text = f"{design.name} ({design.kind.name}): {' '.join(design.source.split()).rstrip('.')}; tuned on {seen}"
     yield fill(text, _WIDTH, initial_indent="  ", subsequent_indent="    ")
 
 

@@ -2,27 +2,30 @@
 
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 from pydantic import ValidationError
 
-from fddbench import gallery
-from fddbench.campaign.canonical import canonical_text, fingerprint
-from fddbench.campaign.consistency import inconsistencies
-from fddbench.campaign.designs import Design, find_design, read_design
-from fddbench.campaign.document import Document, refuse
-from fddbench.campaign.fault_entries import Faults, load_kind, read_faults
+from fddbench import gallery, kinds
 from fddbench.campaign.meaning import Campaign, Scenario
-from fddbench.campaign.messages import mistakes_of
-from fddbench.campaign.model import NAME_PATTERN, CampaignFile
-from fddbench.campaign.overrides import with_overrides
-from fddbench.campaign.references import CHOICES, default_choice, unknown_names
-from fddbench.campaign.wording import shown
-from fddbench.campaign.yaml_nodes import read_yaml
-from fddbench.errors import CampaignError, FddbenchError, Mistake, did_you_mean
-from fddbench.interfaces import Benchmark
+from fddbench.campaign.reading.canonical import canonical_text, fingerprint
+from fddbench.campaign.reading.document import Document, refuse
+from fddbench.campaign.reading.overrides import with_overrides
+from fddbench.campaign.reading.yaml_nodes import read_yaml
+from fddbench.campaign.rules.consistency import Faults, inconsistencies
+from fddbench.campaign.rules.fault_entries import ReadFaults, read_faults
+from fddbench.campaign.rules.messages import mistakes_of
+from fddbench.campaign.rules.model import NAME_PATTERN, CampaignFile, campaign_file
+from fddbench.campaign.rules.references import Chosen, choose, unknown_names
+from fddbench.campaign.rules.wording import shown
+from fddbench.designs.design import Design, read_design
+from fddbench.designs.finding import find_design
+from fddbench.errors import CampaignError, FddbenchError, Mistake, did_you_mean, reason_of
+from fddbench.interfaces import Benchmark, Plant
 
 __all__ = ["find_campaign", "read_campaign"]
 
@@ -37,27 +40,98 @@ def read_campaign(path: Path, overrides: Sequence[str] = ()) -> Campaign:
     """
     path = find_campaign(path)
     document = with_overrides(_document(path), overrides)
-    mistakes: list[Mistake] = []
-    written = None
-    try:
-        written = CampaignFile.model_validate_json(json.dumps(document.data), strict=True)
-    except ValidationError as error:
-        mistakes += mistakes_of(error, document, model=CampaignFile)
-    benchmark, unknown = _benchmark(document)
-    faults, wrong = read_faults(document, benchmark)
-    mistakes += wrong
+    ground = _ground(document, path.parent)
+    written, mistakes = _written(document, ground)
     designs, wrong = _designs(document, path.parent)
-    mistakes += [*wrong, *unknown]
-    if benchmark is not None:
-        mistakes += unknown_names(document, benchmark)
-    if written is not None and benchmark is not None and not mistakes:
-        mistakes += inconsistencies(document, written, faults, benchmark)
+    mistakes += [*wrong, *ground.mistakes]
+    sites = ground.plant.sites if ground.plant else ()
+    faults = read_faults(document, sites, path.parent)
+    mistakes += faults.mistakes
+    if ground.benchmark is not None and ground.plant is not None:
+        mistakes += unknown_names(document, ground.benchmark, ground.plant)
+        if written is not None and not mistakes:
+            mistakes += inconsistencies(document, written, faults.lists, ground.benchmark, ground.plant)
     if written is not None:
         mistakes += _tuned_on_these_flights(written, designs)
     refuse(mistakes)
     assert written is not None
-    assert benchmark is not None
-    return _meaning(document, path, written, faults, designs, benchmark)
+    return _meaning(document, path, written, faults, designs, ground)
+
+
+@dataclass(kw_only=True)
+class _Ground:
+    """What a campaign stands on: its benchmark, what it has chosen there, what flies, and what is wrong with these."""
+
+    benchmark: Benchmark | None = None
+    chosen: Chosen | None = None
+    plant: Plant | None = None
+    files: dict[str, bytes] = field(default_factory=dict)
+    mistakes: list[Mistake] = field(default_factory=list)
+
+
+def _ground(document: Document, folder: Path) -> _Ground:
+    """Benchmark, choices and plant; foreign code may raise anything, which is told where the campaign names it."""
+    found, name = _Ground(), document.get("benchmark")
+    if not isinstance(name, str):
+        return found
+    try:
+        kind = kinds.find("benchmark", name, beside=folder)
+        found.files |= kind.files
+        found.benchmark = kind.member()
+        campaign_file(tuple(found.benchmark.choices))
+        found.chosen, wrong = choose(document, found.benchmark, folder)
+        found.mistakes += wrong
+        if found.chosen is not None:
+            found.files |= found.chosen.files
+            found.plant = found.benchmark.plant(found.chosen.members)
+            _require_sound(found.plant)
+    except FddbenchError as error:
+        found.mistakes.append(document.mistake(("benchmark",), str(error)))
+    except (Exception, SystemExit) as error:
+        message = f"the benchmark {name!r} cannot be used: {reason_of(error)}"
+        found.mistakes.append(document.mistake(("benchmark",), message))
+    if found.mistakes:
+        found.plant = None
+    return found
+
+
+def _require_sound(plant: Plant) -> None:
+    """Refuse a plant that cannot be asked, or whose sites have a unit that nobody knows.
+
+    Raises
+    ------
+    FddbenchError
+        With what is missing.
+    """
+    missing = [name for name in ("sites", "parameters", "refused_parameters", "manoeuvres") if name not in dir(plant)]
+    if missing:
+        raise FddbenchError(f"the plant of this benchmark has no {' and no '.join(missing)}")
+    names = [site.name for site in plant.sites]
+    twice = {name for name in names if names.count(name) > 1}
+    if twice:
+        raise FddbenchError(f"the fault sites {sorted(twice)} are there twice; give each its own name")
+    for site in plant.sites:
+        _ = site.unit
+
+
+def _written(document: Document, ground: _Ground) -> tuple[CampaignFile | None, list[Mistake]]:
+    """The campaign as its model reads it; without a benchmark the choices of all registered ones are allowed."""
+    model = campaign_file(tuple(ground.benchmark.choices) if ground.benchmark else _any_choices())
+    try:
+        return model.model_validate_json(json.dumps(document.data), strict=True), []
+    except ValidationError as error:
+        return None, mistakes_of(error, document, model=model)
+
+
+def _any_choices() -> tuple[str, ...]:
+    """Choices of all registered benchmarks; a broken package has none."""
+    found: dict[str, None] = {}
+    for name in kinds.known("benchmark"):
+        try:
+            found |= dict.fromkeys(kinds.load("benchmark", name).choices)
+        except FddbenchError:
+            continue
+    return tuple(key for key in found if key not in CampaignFile.model_fields)
 
 
 def find_campaign(path: Path) -> Path:
@@ -99,16 +173,6 @@ def _document(path: Path) -> Document:
     return document
 
 
-def _benchmark(document: Document) -> tuple[Benchmark | None, list[Mistake]]:
-    name = document.get("benchmark")
-    if not isinstance(name, str):
-        return None, []
-    try:
-        return load_kind("benchmark", name)(), []
-    except FddbenchError as error:
-        return None, [document.mistake(("benchmark",), str(error))]
-
-
 def _designs(document: Document, folder: Path) -> tuple[tuple[Design, ...], list[Mistake]]:
     found: list[Design] = []
     mistakes: list[Mistake] = []
@@ -126,21 +190,18 @@ def _designs(document: Document, folder: Path) -> tuple[tuple[Design, ...], list
 
 
 def _namesakes(designs: Sequence[Design]) -> list[Mistake]:
-    """Different plug-in files of one name: only one of them could be kept beside the results."""
+    """Different files of one name that designs stand on: only one of them could be kept beside the results."""
     first: dict[str, Design] = {}
     mistakes = []
     for design in designs:
-        if design.plugin is None:
-            continue
-        other = first.setdefault(design.plugin.file, design)
-        if other.plugin != design.plugin:
-            mistakes.append(
-                Mistake(
-                    design.where,
-                    f"the plug-ins of {other.name!r} and {design.name!r} are different files of the same name "
-                    f"{design.plugin.file}; rename one",
+        for name, content in design.files.items():
+            other = first.setdefault(name, design)
+            if other.files[name] != content:
+                message = (
+                    f"the plug-ins of {other.name!r} and {design.name!r} are different files of the same name {name}; "
+                    "rename one"
                 )
-            )
+                mistakes.append(Mistake(design.where, message))
     return mistakes
 
 
@@ -162,38 +223,48 @@ def _meaning(
     document: Document,
     path: Path,
     written: CampaignFile,
-    faults: Faults,
+    faults: ReadFaults,
     designs: tuple[Design, ...],
-    benchmark: Benchmark,
+    ground: _Ground,
 ) -> Campaign:
-    choices: dict[str, Any] = {key: getattr(written, key) or default_choice(benchmark, key) for key in CHOICES}
-    scenarios = tuple(
-        Scenario(
-            name=entry.name,
-            manoeuvre=entry.manoeuvre,
-            faults=faults[number],
-            runs=entry.runs,
-            duration_s=entry.duration_s,
-            detection_time_limit_s=entry.detection_time_limit_s,
-        )
-        for number, entry in enumerate(written.scenarios)
+    assert ground.benchmark is not None
+    assert ground.chosen is not None
+    assert ground.plant is not None
+    scenarios = [Scenario(entry=entry, faults=faults.lists[n]) for n, entry in enumerate(written.scenarios)]
+    beside = ground.files | faults.files
+    return Campaign(
+        path=path,
+        **{key: getattr(written, key) for key in _AS_WRITTEN},
+        bench=ground.benchmark,
+        plant=ground.plant,
+        choices=ground.chosen.names,
+        chosen=ground.chosen.members,
+        scenarios=tuple(scenarios),
+        designs=designs,
+        text=canonical_text(document.data),
+        beside=beside,
+        sha256=fingerprint(_content(written, faults.lists, designs, ground.chosen.names, beside)),
     )
-    content = written.model_dump(mode="json", exclude={"about", "scenarios"}) | choices
+
+
+def _content(
+    written: CampaignFile,
+    faults: Faults,
+    designs: Sequence[Design],
+    choices: Mapping[str, str],
+    beside: Mapping[str, bytes],
+) -> dict[str, Any]:
+    """Everything that decides rows, as plain data."""
+    content: dict[str, Any] = written.model_dump(mode="json", exclude={"about", "scenarios"}) | dict(choices)
     content["scenarios"] = [
         entry.model_dump(mode="json")
         | {"faults": [fault.model_dump(mode="json", by_alias=True) for fault in faults[number]]}
         for number, entry in enumerate(written.scenarios)
     ]
     content["designs"] = {design.name: design.sha256 for design in designs}
-    return Campaign(
-        path=path,
-        **{key: getattr(written, key) for key in _AS_WRITTEN},
-        **choices,
-        scenarios=scenarios,
-        designs=designs,
-        text=canonical_text(document.data),
-        sha256=fingerprint(content),
-    )
+    if beside:
+        content["files"] = {name: sha256(text).hexdigest() for name, text in sorted(beside.items())}
+    return content
 
 
 _AS_WRITTEN = ("name", "about", "benchmark", "purpose", "seed", "sample_s", "substeps", "duration_s", "dispersions")

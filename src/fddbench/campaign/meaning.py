@@ -1,40 +1,32 @@
 """What a campaign means once everything in it has been checked and every default filled in."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
-from fddbench.campaign.designs import Design
-from fddbench.campaign.document import refuse
-from fddbench.campaign.model import Dispersions, Purpose
-from fddbench.campaign.soundness import unsound
-from fddbench.errors import DesignError, Mistake, reason_of
+from fddbench.campaign.rules.model import Dispersions, Purpose, ScenarioEntry
+from fddbench.designs.design import Design
 from fddbench.faults.specification import FaultSpecification
-from fddbench.interfaces import Bus, Detector
+from fddbench.interfaces import Benchmark, Plant
 
-__all__ = ["Campaign", "Scenario", "build_detectors"]
+__all__ = ["Campaign", "Scenario"]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Scenario:
-    """A manoeuvre and the faults injected in it.
+    """A manoeuvre and the faults injected in it: the entry of the file, its faults as their kinds read them."""
 
-    Attributes
-    ----------
-    runs : int or None
-        Monte-Carlo runs instead of the campaign's.
-    duration_s, detection_time_limit_s : float or None
-        Instead of the campaign's and of the benchmark's [s].
-    """
-
-    name: str
-    manoeuvre: str
+    entry: ScenarioEntry
     faults: tuple[FaultSpecification, ...]
-    runs: int | None
-    duration_s: float | None
-    detection_time_limit_s: float | None
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        return self.entry.name
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Campaign:
     """Everything that determines a table of results.
 
@@ -42,8 +34,12 @@ class Campaign:
     ----------
     path : Path
         File it was read from.
-    benchmark, plant, voter, sensors, wind : str
-        Registered benchmark, and its options.
+    benchmark : str
+        Benchmark as the campaign names it.
+    bench, plant : Benchmark, Plant
+        The benchmark itself, and what flies on it.
+    choices, chosen : mappings
+        What was chosen on it: by the key of the choice its name, and the member itself.
     purpose, seed : str, int
         Address of all random numbers.
     sample_s : float
@@ -56,18 +52,20 @@ class Campaign:
         Detectors in the order of the file.
     text : str
         Canonical YAML of the campaign with all overrides; `read_campaign` reads it back to the same campaign.
+    beside : mapping of str to bytes
+        Files beside the campaign that its kinds come from.
     sha256 : str
-        Of the meaning without `about`, and of the designs: equal hashes give equal rows.
+        Of the meaning without `about`, of the designs and of the files: equal hashes give equal rows.
     """
 
     path: Path
     name: str
     about: str
     benchmark: str
-    plant: str
-    voter: str
-    sensors: str
-    wind: str
+    bench: Benchmark
+    plant: Plant
+    choices: Mapping[str, str]
+    chosen: Mapping[str, Any]
     purpose: Purpose
     seed: int
     sample_s: float
@@ -77,38 +75,13 @@ class Campaign:
     dispersions: Dispersions
     designs: tuple[Design, ...]
     text: str = field(repr=False)
+    beside: Mapping[str, bytes] = field(repr=False)
     sha256: str
 
-    def files(self) -> dict[str, str]:
-        """Text by name of everything to keep in a folder of results so that the campaign can be read there again."""
-        found = {"campaign.yaml": self.text}
+    def files(self) -> dict[str, bytes]:
+        """Content by name of everything to keep in a folder of results so that the campaign can be read there again."""
+        found = {"campaign.yaml": self.text.encode(), **self.beside}
         for design in self.designs:
-            found[f"detectors/{design.name}.yaml"] = design.text
-            if design.plugin is not None:
-                found[f"detectors/{design.plugin.file}"] = design.plugin.text
+            found[f"detectors/{design.name}.yaml"] = design.text.encode()
+            found |= {f"detectors/{name}": content for name, content in design.files.items()}
         return found
-
-
-def build_detectors(campaign: Campaign, bus: Bus) -> dict[str, Detector]:
-    """Detectors of a campaign by the name of their design, in the order of the file.
-
-    Raises
-    ------
-    CampaignError
-        The numbers of a design make no detector for this bus; located where the campaign names the design.
-    """
-    found: dict[str, Detector] = {}
-    mistakes = []
-    for design in campaign.designs:
-        try:
-            found[design.name] = design.build(bus)
-        except DesignError as error:
-            wrong = str(error)
-        except (Exception, SystemExit) as error:  # a plug-in may raise anything
-            wrong = f"from_design raised {reason_of(error)}"
-        else:
-            wrong = unsound(found[design.name], bus)
-        if wrong:
-            mistakes.append(Mistake(design.where, f"design {design.name!r} ({design.path}): {wrong}"))
-    refuse(mistakes)
-    return found

@@ -1,27 +1,18 @@
 """The case table of a campaign: which number flies what."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from math import prod
 
 import numpy as np
 import numpy.typing as npt
 
-from fddbench import registry
 from fddbench.campaign.meaning import Campaign, Scenario
 from fddbench.campaign.sampling import Runs, count, parameters
 from fddbench.campaign.streams import flight_stream, scenario_stream
-from fddbench.campaign.timing import (
-    faulty_sites,
-    first_faulty_sample,
-    flight_limit_s,
-    flight_s,
-    last_onset_s,
-    limit_s,
-    samples,
-)
+from fddbench.campaign.timing import faulty_sites, first_faulty_sample, flight_limit_s, flight_s, requirement_s
 from fddbench.faults.specification import FaultSpecification
-from fddbench.interfaces import Benchmark, Floats
+from fddbench.faults.timing import last_onset_s, samples
+from fddbench.interfaces import Floats, Plant
 
 __all__ = ["Plan", "PlannedScenario", "plan"]
 
@@ -32,17 +23,15 @@ class PlannedScenario:
 
     Attributes
     ----------
+    scenario : Scenario
+        What it is.
     first_case, n_runs : int
         Its cases are ``first_case ... first_case + n_runs - 1``.
-    monte_carlo_runs : int or None
-        Its own number of draws.
-    faults : tuple of FaultSpecification
-        In the order of the file: fault slot 0, 1, ...
     duration_s, n_samples : float, int
         Length of the flight [s], and samples 0 ... n_samples - 1.
     k0 : int or None
         First faulty sample; None in a healthy flight.
-    faulty_sites, n_faulty : tuple of str, int
+    faulty_sites : tuple of str
         Distinct faulty sites in the order of the benchmark.
     limit_s : float or None
         Detection time limit of the flight, from its first onset [s]; None in a healthy flight.
@@ -52,20 +41,36 @@ class PlannedScenario:
         Fourth word of the counter of its faults' random numbers.
     """
 
-    name: str
-    manoeuvre: str
-    faults: tuple[FaultSpecification, ...]
+    scenario: Scenario
     first_case: int
     n_runs: int
-    monte_carlo_runs: int | None
     duration_s: float
     n_samples: int
     k0: int | None
     faulty_sites: tuple[str, ...]
-    n_faulty: int
     limit_s: float | None
     event_limits_s: tuple[float, ...]
     stream: int
+
+    @property
+    def name(self) -> str:
+        """Name of the scenario."""
+        return self.scenario.entry.name
+
+    @property
+    def manoeuvre(self) -> str:
+        """What is flown."""
+        return self.scenario.entry.manoeuvre
+
+    @property
+    def faults(self) -> tuple[FaultSpecification, ...]:
+        """Its faults in the order of the file: fault slot 0, 1, ..."""
+        return self.scenario.faults
+
+    @property
+    def n_faulty(self) -> int:
+        """Number of faulty sites."""
+        return len(self.faulty_sites)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,7 +79,7 @@ class Plan:
 
     Attributes
     ----------
-    campaign, benchmark : Campaign, Benchmark
+    campaign : Campaign
         What is flown.
     scenarios : tuple of PlannedScenario
         In the order of the file.
@@ -83,9 +88,13 @@ class Plan:
     """
 
     campaign: Campaign
-    benchmark: Benchmark
     scenarios: tuple[PlannedScenario, ...]
     stream: int
+
+    @property
+    def plant(self) -> Plant:
+        """What flies."""
+        return self.campaign.plant
 
     @property
     def n_cases(self) -> int:
@@ -115,16 +124,16 @@ class Plan:
     def parameters(self, cases: npt.ArrayLike) -> dict[str, Floats]:
         """Parameters of cases, true values, each (n,) in the unit of its name; every parameter of the benchmark."""
         position, runs = self.locate(cases)
-        found = {entry.name: np.empty(len(runs)) for entry in self.benchmark.parameters}
+        found = {entry.name: np.empty(len(runs)) for entry in self.plant.parameters}
         for number in np.unique(position):
             mine = position == number
             drawn = parameters(
                 self.campaign.dispersions,
-                self.benchmark.parameters,
+                self.plant.parameters,
                 key=self.campaign.seed,
                 purpose=self.campaign.purpose,
                 runs=runs[mine],
-                monte_carlo_runs=self.scenarios[number].monte_carlo_runs,
+                monte_carlo_runs=self.scenarios[number].scenario.entry.runs,
             )
             for name, values in drawn.items():
                 found[name][mine] = values
@@ -133,43 +142,30 @@ class Plan:
 
 def plan(campaign: Campaign) -> Plan:
     """Case table of a campaign; nothing is expanded."""
-    benchmark: Benchmark = registry.load("benchmark", campaign.benchmark)()
     planned: list[PlannedScenario] = []
     for scenario in campaign.scenarios:
         first = planned[-1].first_case + planned[-1].n_runs if planned else 0
-        planned.append(_planned(scenario, campaign, benchmark, first_case=first))
-    return Plan(
-        campaign=campaign, benchmark=benchmark, scenarios=tuple(planned), stream=flight_stream(campaign.purpose)
-    )
+        planned.append(_planned(scenario, campaign, first_case=first))
+    return Plan(campaign=campaign, scenarios=tuple(planned), stream=flight_stream(campaign.purpose))
 
 
-def _planned(scenario: Scenario, campaign: Campaign, benchmark: Benchmark, *, first_case: int) -> PlannedScenario:
-    faults, own_limit = scenario.faults, scenario.detection_time_limit_s
-    given = campaign.duration_s if scenario.duration_s is None else scenario.duration_s
-    duration = flight_s(faults, scenario.manoeuvre, benchmark, duration_s=given, override_s=own_limit)
-    sites = faulty_sites(faults, benchmark)
+def _planned(scenario: Scenario, campaign: Campaign, *, first_case: int) -> PlannedScenario:
+    faults, entry, plant = scenario.faults, scenario.entry, campaign.plant
+    own_limit = entry.detection_time_limit_s
+    given = campaign.duration_s if entry.duration_s is None else entry.duration_s
+    duration = flight_s(faults, entry.manoeuvre, plant, duration_s=given, override_s=own_limit)
     return PlannedScenario(
-        name=scenario.name,
-        manoeuvre=scenario.manoeuvre,
-        faults=faults,
+        scenario=scenario,
         first_case=first_case,
-        n_runs=prod(count(campaign.dispersions, monte_carlo_runs=scenario.runs)),
-        monte_carlo_runs=scenario.runs,
+        n_runs=prod(count(campaign.dispersions, monte_carlo_runs=entry.runs)),
         duration_s=duration,
         n_samples=samples(duration, campaign.sample_s) + 1,
         k0=first_faulty_sample(faults, campaign.sample_s),
-        faulty_sites=sites,
-        n_faulty=len(sites),
-        limit_s=flight_limit_s(faults, benchmark, override_s=own_limit) if faults else None,
-        event_limits_s=_event_limits(faults, benchmark, own_limit),
-        stream=scenario_stream(campaign.purpose, scenario.name),
-    )
-
-
-def _event_limits(
-    faults: Sequence[FaultSpecification], benchmark: Benchmark, override_s: float | None
-) -> tuple[float, ...]:
-    return tuple(
-        round(last_onset_s(fault) - fault.onset_s, 9) + limit_s(len(fault.sites), benchmark, override_s=override_s)
-        for fault in faults
+        faulty_sites=tuple(site.name for site in faulty_sites(faults, plant.sites)),
+        limit_s=flight_limit_s(faults, plant.sites, override_s=own_limit) if faults else None,
+        event_limits_s=tuple(
+            round(last_onset_s(fault) - fault.onset_s, 9) + requirement_s([fault], plant.sites, override_s=own_limit)
+            for fault in faults
+        ),
+        stream=scenario_stream(campaign.purpose, entry.name),
     )

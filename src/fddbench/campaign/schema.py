@@ -2,19 +2,43 @@
 
 from typing import Any
 
-from fddbench import registry
-from fddbench.campaign.model import CampaignFile
+from fddbench import kinds
+from fddbench.campaign.rules.model import CampaignFile, campaign_file
+from fddbench.errors import FddbenchError
+from fddbench.interfaces.benchmark import default_choices
+from fddbench.units import UNITS
 
 __all__ = ["campaign_schema"]
 
 
 def campaign_schema() -> dict[str, Any]:
-    """JSON schema with the keys of every registered fault, in the units of every registered benchmark."""
-    schema = CampaignFile.model_json_schema()
-    units = sorted({registry.load("benchmark", name).fault_units.unit for name in registry.kinds("benchmark")})
-    kinds = [registry.load("fault", name) for name in registry.kinds("fault")]
-    faults = [kind.in_unit(unit).model_json_schema() for unit in units for kind in kinds]
+    """JSON schema with the choices of every registered benchmark and the keys of every registered fault, in the units of
+    their sites; a package that cannot be imported is left out.
+    """
+    keys: dict[str, None] = {}
+    units: set[str] = set()
+    for name in kinds.known("benchmark"):
+        try:
+            benchmark = kinds.load("benchmark", name)()
+            found = {site.unit_name for site in benchmark.plant(default_choices(benchmark)).sites}
+        except Exception:  # a package of somebody else's may raise anything
+            continue
+        keys |= dict.fromkeys(key for key in benchmark.choices if key not in CampaignFile.model_fields)
+        units |= found & UNITS.keys()
+    schema = campaign_file(tuple(keys)).model_json_schema()
+    faults = [kind.in_unit(unit).model_json_schema() for unit in sorted(units) for kind in _faults()]
     for fault in faults:
         schema["$defs"] |= fault.pop("$defs", {})
     schema["$defs"]["ScenarioEntry"]["properties"]["faults"]["items"] = {"anyOf": faults}
     return schema
+
+
+def _faults() -> list[Any]:
+    """Registered kinds of faults that can be imported."""
+    found = []
+    for name in kinds.known("fault"):
+        try:
+            found.append(kinds.load("fault", name))
+        except FddbenchError:
+            continue
+    return found

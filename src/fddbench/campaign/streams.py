@@ -7,7 +7,7 @@ for its faults.
 
 from hashlib import sha256
 
-from fddbench.campaign.model import Purpose
+from fddbench.campaign.rules.model import Purpose
 
 __all__ = ["flight_stream", "name_word", "scenario_stream"]
 

@@ -140,20 +140,31 @@ def check(args: argparse.Namespace) -> int:
 
 def list_(args: argparse.Namespace) -> int:
     """List what campaigns can name: benchmarks, faults, voters, detectors, shipped campaigns and designs."""
-    from fddbench import gallery, registry
+    from fddbench import gallery, kinds
 
     del args
-    for family in registry.FAMILIES:
-        print(f"{family}s")
-        for name in registry.kinds(family):
-            kind = registry.load(family, name)
-            about = getattr(kind, "about", "") or (kind.__doc__ or "").split("\n")[0]
-            print(f"  {name:<16}{about}")
+    for family in kinds.FAMILIES:
+        names = kinds.known(family)
+        if names:
+            print(f"{family}s")
+        for name in names:
+            print(f"  {name:<16}{_about(family, name)}")
     for name in ("campaigns", "detectors"):
         print("shipped campaigns" if name == "campaigns" else "shipped designs")
         for path in sorted(gallery.folder(name).glob("*.yaml")):
             print(f"  {path.stem:<26}{path.read_text(encoding='utf-8').split(chr(10))[0].lstrip('# ')}")
     return 0
+
+
+def _about(family: str, name: str) -> str:
+    """What a registered member says of itself; of one that cannot be imported, why."""
+    from fddbench import kinds
+
+    try:
+        kind = kinds.load(family, name)
+    except FddbenchError as error:
+        return f"(broken) {error}"
+    return str(getattr(kind, "about", "") or (kind.__doc__ or "").split("\n")[0])
 
 
 def init(args: argparse.Namespace) -> int:

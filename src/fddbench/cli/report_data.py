@@ -19,19 +19,7 @@ from fddbench.runner.work import frozen
 
 __all__ = ["report_data"]
 
-_SETTINGS = (
-    "name",
-    "about",
-    "benchmark",
-    "plant",
-    "voter",
-    "sensors",
-    "wind",
-    "purpose",
-    "seed",
-    "sample_s",
-    "substeps",
-)
+_SETTINGS = ("name", "about", "benchmark", "purpose", "seed", "sample_s", "substeps")
 _AFTER_S, _LEAST_S = 3.0, 5.0
 
 
@@ -45,7 +33,8 @@ def report_data(folder: Path) -> ReportData:
     """
     provenance, rows = provenance_of(folder), load(folder)
     campaign = frozen(folder, provenance["campaign_sha256"])
-    content: dict[str, Any] = {name: getattr(campaign, name) for name in _SETTINGS} | yaml.safe_load(campaign.text)
+    content: dict[str, Any] = {name: getattr(campaign, name) for name in _SETTINGS} | dict(campaign.choices)
+    content |= yaml.safe_load(campaign.text)
     assembly = assemble(campaign)
     loads = {
         name: in_words(detector_load(detector, assembly.loop.bus, timed=False))
@@ -60,7 +49,7 @@ def report_data(folder: Path) -> ReportData:
         designs=[
             {
                 "name": d.name,
-                "kind": d.kind,
+                "kind": d.kind.name,
                 "source": d.source,
                 "about": d.about,
                 "sha256": d.sha256,
@@ -69,10 +58,10 @@ def report_data(folder: Path) -> ReportData:
             }
             for d in campaign.designs
         ],
-        recordings=list(replay(folder, chosen, seconds=_seconds(rows), signals=assembly.plan.benchmark.shown)),
+        recordings=list(replay(folder, chosen, seconds=_seconds(rows), signals=campaign.bench.shown)),
         published=published_for(content),
         iterations=iterations_for(content),
-        limits_from=assembly.plan.benchmark.limits_from,
+        limits_from=campaign.bench.limits_from,
     )
 
 

@@ -9,11 +9,10 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
-from fddbench import registry
-from fddbench.campaign.design_file import DesignFile, design_text
-from fddbench.campaign.document import refuse
-from fddbench.campaign.messages import mistakes_of
-from fddbench.campaign.yaml_nodes import read_yaml
+from fddbench import kinds
+from fddbench.campaign.reading.document import refuse
+from fddbench.campaign.reading.yaml_nodes import read_yaml
+from fddbench.campaign.rules.messages import mistakes_of
 from fddbench.design.problem import Filter, augment, close
 from fddbench.design.proof import Proven
 from fddbench.design.recipe_file import Recipe
@@ -22,6 +21,7 @@ from fddbench.design.robust_hinf import Design, synthesize
 from fddbench.design.systems import StateSpace, UncertainPlant
 from fddbench.design.uncertainty import NormBounded, blocks_of
 from fddbench.design.worst_case import worst_delta
+from fddbench.designs.design_file import DesignFile, design_text
 from fddbench.errors import DesignError
 
 __all__ = ["Cooked", "cook"]
@@ -128,7 +128,7 @@ def _plant(given: str | Mapping[str, Any]) -> UncertainPlant:
                 f"recipe.plant makes no plant: {error}. A, Bf, Bd, B, C, Df, Dd and D are needed, as matrices with rows of "
                 "equal length; the uncertainty channel is zero where it is not given"
             ) from error
-    matrices = getattr(registry.load("benchmark", given), "matrices", None)
+    matrices = getattr(kinds.load("benchmark", given), "matrices", None)
     if matrices is None:
         raise DesignError(f"benchmark {given!r} offers no matrices to design for; give them under recipe.plant")
     return UncertainPlant(**matrices)

@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field
 
-from fddbench.campaign.model import Strict
+from fddbench.campaign.rules.model import Strict
 from fddbench.design.systems import StateSpace
 from fddbench.errors import DesignError
 

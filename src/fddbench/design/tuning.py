@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from fddbench.campaign.design_file import design_text
-from fddbench.campaign.designs import Design
 from fddbench.campaign.meaning import Campaign
+from fddbench.designs.design import Design
+from fddbench.designs.design_file import design_text
 from fddbench.errors import DesignError
 from fddbench.interfaces import Floats
 

@@ -1,17 +1,19 @@
 """Residual filter given by its matrices, with an evaluation that isolates: residual i speaks for fault i."""
 
 from types import SimpleNamespace
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
-from fddbench.blocks.layout import Layout, Rows
+from fddbench.blocks.block import NO_DRAWS, NOTHING
+from fddbench.blocks.drawn import Draws
+from fddbench.blocks.layout import Layout, Nothing, Rows, record
 from fddbench.blocks.linear import column, largest, product, total
 from fddbench.blocks.tustin import tustin
 from fddbench.detection.confirmation import held_samples, samples
 from fddbench.errors import DesignError
-from fddbench.interfaces import Bus, Floats, Verdict
+from fddbench.interfaces import Bus, Verdict
 
 __all__ = ["HinfFilter", "HinfFilterGains"]
 
@@ -54,6 +56,16 @@ class HinfFilterGains(BaseModel):
     confirm_s: NonNegative
 
 
+@record
+class FilterState:
+    """State of the filter; the last residuals, sample after sample; for how long each mean has exceeded; declarations."""
+
+    filter: Rows
+    window: Rows
+    held_samples: Rows
+    declared: Rows
+
+
 class HinfFilter:
     """Declares fault i when the moving mean of residual i stays beyond its threshold; a declaration is for good.
 
@@ -71,6 +83,8 @@ class HinfFilter:
 
     about = "residual filter by its matrices, moving mean and a threshold per residual"
     Gains = HinfFilterGains
+    constants: Layout[Any] = NOTHING
+    draws: Draws[Any] = NO_DRAWS
 
     def __init__(self, gains: HinfFilterGains, bus: Bus) -> None:
         g = {name: np.array(getattr(gains, name), dtype=float) for name in _SIDES}
@@ -81,18 +95,16 @@ class HinfFilter:
         self.n_residuals, self.thresholds = len(gains.thresholds), column(gains.thresholds)
         self.window = max(1, round(gains.window_s / bus.sample_s))
         self.confirm_samples = samples(gains.confirm_s, bus.sample_s)
-        n = self.n_residuals
+        n, self.watches = self.n_residuals, _watched(bus)
         self.evaluated = tuple(f"mean_{i + 1}" for i in range(n))
         self.recorded = tuple(f"{name}_{i + 1}" for i in range(n) for name in ("mean", "threshold"))
-        self.states = Layout(filter=len(g["A"]), window=n * self.window, held_samples=n, declared=n)
+        self.states = Layout(FilterState(filter=len(g["A"]), window=n * self.window, held_samples=n, declared=n))
 
     @classmethod
     def from_design(cls, gains: HinfFilterGains, bus: Bus) -> "HinfFilter":
         """Filter for a bus with outputs y and inputs u; refuses matrices that do not fit and unstable filters."""
-        missing = [name for name in ("y", "u") if name not in bus.signals]
-        if missing:
-            raise DesignError(f"hinf_filter needs the signals {missing}, this benchmark has {sorted(bus.signals)}")
-        sizes = {"x": len(gains.A), "y": bus.signals["y"], "u": bus.signals["u"], "r": len(bus.sites)}
+        bus.require("y", "u")
+        sizes = {"x": len(gains.A), "y": bus.signals["y"], "u": bus.signals["u"], "r": len(_watched(bus))}
         for name, (rows, columns) in _SIDES.items():
             found, need = _shape(getattr(gains, name)), (sizes[rows], sizes[columns])
             if found != need:
@@ -107,25 +119,31 @@ class HinfFilter:
             )
         return cls(gains, bus)
 
-    def start(self, n_cases: int) -> Floats:
+    def start(self, c: Nothing) -> FilterState:
         """Nothing declared, filter at rest."""
-        return self.states.zeros(n_cases)
+        del c
+        return FilterState(filter=0.0, window=0.0, held_samples=0.0, declared=0.0)
 
-    def step(self, state: Rows, measured: SimpleNamespace) -> tuple[Rows, Verdict]:
+    def step(self, x: FilterState, c: Nothing, n: Nothing, measured: SimpleNamespace) -> tuple[FilterState, Verdict]:
         """Verdict after one sample."""
-        x, n = self.states.unpack(state), self.n_residuals
+        del c, n
+        n_r = self.n_residuals
         v = np.concatenate([measured.y, measured.u])
         residual = product(self.C, x.filter) + product(self.D, v)
-        window = np.concatenate([residual, x.window[:-n]])
-        mean = total([window[n * j : n * (j + 1)] for j in range(self.window)]) / float(self.window)
+        window = np.concatenate([residual, x.window[:-n_r]])
+        mean = total([window[n_r * j : n_r * (j + 1)] for j in range(self.window)]) / float(self.window)
         held = held_samples(x.held_samples, np.abs(mean) > self.thresholds)
         declared = np.maximum(x.declared, np.where(held - 1.0 >= self.confirm_samples, 1.0, 0.0))
-        after = self.states.pack(
-            filter=product(self.A, x.filter) + product(self.B, v), window=window, held_samples=held, declared=declared
-        )
+        filtered = product(self.A, x.filter) + product(self.B, v)
+        after = FilterState(filter=filtered, window=window, held_samples=held, declared=declared)
         shown = {name: mean[i] for i, name in enumerate(self.evaluated)}
-        shown |= {f"threshold_{i + 1}": np.zeros_like(mean[i]) + self.thresholds[i] for i in range(n)}
+        shown |= {f"threshold_{i + 1}": np.zeros_like(mean[i]) + self.thresholds[i] for i in range(n_r)}
         return after, Verdict(declared, largest(np.abs(mean) / self.thresholds), signals=shown)
+
+
+def _watched(bus: Bus) -> tuple[str, ...]:
+    """Sites that the residuals speak for: those of the kind of the first one."""
+    return bus.sites_of(bus.sites[0].kind) if bus.sites else ()
 
 
 def _shape(matrix: Matrix) -> tuple[int, int]:

@@ -1,17 +1,18 @@
 """The baseline: the comparison with the voted signal and its confirmation time, nothing else."""
 
 from types import SimpleNamespace
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
-from fddbench.blocks.layout import Layout, Rows
+from fddbench.blocks.block import NO_DRAWS, NOTHING
+from fddbench.blocks.drawn import Draws
+from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, record
 from fddbench.detection.confirmation import held_samples, samples
 from fddbench.detection.consolidation import deviations_deg_s, largest_deviation_deg_s, outlier
 from fddbench.detection.isolation import latch
-from fddbench.errors import DesignError
-from fddbench.interfaces import Bus, Floats, Verdict
+from fddbench.interfaces import Bus, Verdict
 
 __all__ = ["VotingMonitor"]
 
@@ -35,6 +36,15 @@ class VotingMonitorGains(BaseModel):
     confirm_one_s: Positive
 
 
+@record
+class MonitorState:
+    """For how many samples the flag has stood; how many sites are declared, and which."""
+
+    held_samples: Row
+    n_declared: Row
+    declared: Rows
+
+
 class VotingMonitor:
     """Declares the sensor that stays away from the voted signal; what consolidation in service does.
 
@@ -47,26 +57,28 @@ class VotingMonitor:
     recorded = ("deviation_deg_s", "threshold_deg_s")
     Gains = VotingMonitorGains
 
+    constants: Layout[Any] = NOTHING
+    draws: Draws[Any] = NO_DRAWS
+
     def __init__(self, gains: VotingMonitorGains, bus: Bus) -> None:
-        self.gains, self.n_sites = gains, len(bus.sites)
+        self.gains, self.watches = gains, bus.redundant("r_deg_s")
         self.confirm_samples = samples(gains.confirm_one_s, bus.sample_s)
-        self.states = Layout(held_samples=0, n_declared=0, declared=self.n_sites)
+        self.states = Layout(MonitorState(held_samples=ROW, n_declared=ROW, declared=len(self.watches)))
 
     @classmethod
     def from_design(cls, gains: VotingMonitorGains, bus: Bus) -> "VotingMonitor":
-        """Monitor for a bus; needs the redundant sensors and their voted signal."""
-        missing = [name for name in ("r_deg_s", "r_voted_deg_s") if name not in bus.signals]
-        if missing:
-            raise DesignError(f"voting_monitor needs the signals {missing}, this benchmark has {sorted(bus.signals)}")
+        """Monitor for a bus; needs redundant sensors and their voted signal."""
+        bus.require("r_deg_s", "r_voted_deg_s")
         return cls(gains, bus)
 
-    def start(self, n_cases: int) -> Floats:
+    def start(self, c: Nothing) -> MonitorState:
         """Nothing declared."""
-        return self.states.zeros(n_cases)
+        del c
+        return MonitorState(held_samples=0.0, n_declared=0.0, declared=0.0)
 
-    def step(self, state: Rows, measured: SimpleNamespace) -> tuple[Rows, Verdict]:
+    def step(self, x: MonitorState, c: Nothing, n: Nothing, measured: SimpleNamespace) -> tuple[MonitorState, Verdict]:
         """Verdict after one sample."""
-        x = self.states.unpack(state)
+        del c, n
         deviation = deviations_deg_s(measured.r_deg_s, measured.r_voted_deg_s)
         largest = largest_deviation_deg_s(deviation)
         held = held_samples(x.held_samples, largest > self.gains.flag_threshold_deg_s)
@@ -76,4 +88,4 @@ class VotingMonitor:
         verdict = Verdict(
             declared, largest / threshold, signals={"deviation_deg_s": largest, "threshold_deg_s": threshold}
         )
-        return self.states.pack(held_samples=held, n_declared=n_now, declared=declared), verdict
+        return MonitorState(held_samples=held, n_declared=n_now, declared=declared), verdict

@@ -2,10 +2,23 @@
 
 from typing import ClassVar, Literal
 
-from fddbench.faults.specification import FaultSpecification, FaultWave, Finite
-from fddbench.interfaces import FaultUnits
+from fddbench.blocks.layout import Rows, record
+from fddbench.faults.specification import FaultSpecification, Finite
+from fddbench.interfaces import Floats, Site
 
-__all__ = ["Bias"]
+__all__ = ["Bias", "Offset"]
+
+
+@record
+class Offset:
+    """A constant in the unit of the site."""
+
+    offset: Rows
+
+    def at(self, time_s: Rows) -> Rows:
+        """The constant, whatever the time."""
+        del time_s
+        return self.offset
 
 
 class Bias(FaultSpecification):
@@ -18,12 +31,14 @@ class Bias(FaultSpecification):
     """
 
     about: ClassVar[str] = "a constant added to the sensor"
+    profile = Offset
 
     kind: Literal["bias"]
     mode: Literal["add"] = "add"
     amplitude_percent: Finite | None = None
     amplitude: Finite | None = None
 
-    def wave(self, units: FaultUnits) -> FaultWave:
+    def numbers(self, site: Site, uniform: Floats) -> Offset:
         """Offset of the given size."""
-        return FaultWave(offset=self.size("amplitude", "amplitude_percent", units))
+        del uniform
+        return Offset(offset=self.size("amplitude", site))

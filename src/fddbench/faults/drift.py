@@ -2,10 +2,25 @@
 
 from typing import ClassVar, Literal
 
-from fddbench.faults.specification import FaultSpecification, FaultWave, Finite, NonNegative
-from fddbench.interfaces import FaultUnits
+import numpy as np
+
+from fddbench.blocks.layout import Rows, record
+from fddbench.faults.specification import FaultSpecification, Finite, NonNegative
+from fddbench.interfaces import Floats, Site
 
 __all__ = ["Drift"]
+
+
+@record
+class Ramp:
+    """Slope [unit/s], and the size at which it stops, in the unit of the site."""
+
+    rate: Rows
+    limit: Rows
+
+    def at(self, time_s: Rows) -> Rows:
+        """The ramp, no larger than its limit."""
+        return np.minimum(np.maximum(self.rate * time_s, -self.limit), self.limit)
 
 
 class Drift(FaultSpecification):
@@ -20,6 +35,7 @@ class Drift(FaultSpecification):
     """
 
     about: ClassVar[str] = "a ramp that stops at a final size"
+    profile = Ramp
 
     kind: Literal["drift"]
     mode: Literal["add"] = "add"
@@ -28,9 +44,7 @@ class Drift(FaultSpecification):
     amplitude_percent: NonNegative | None = None
     amplitude: NonNegative | None = None
 
-    def wave(self, units: FaultUnits) -> FaultWave:
+    def numbers(self, site: Site, uniform: Floats) -> Ramp:
         """Ramp of the given slope up to the given size."""
-        return FaultWave(
-            rate=self.size("rate", "rate_percent_s", units),
-            ramp_limit=self.size("amplitude", "amplitude_percent", units),
-        )
+        del uniform
+        return Ramp(rate=self.size("rate", site), limit=self.size("amplitude", site))

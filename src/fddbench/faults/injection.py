@@ -1,140 +1,147 @@
-"""The one fault step: data rows decide kind, size and time, so one chunk mixes all scenarios and kinds.
+"""All faults on the sites of one signal, slot after slot: data rows decide kind, size and time of each flight.
 
-A fault occupies a slot; the slots act one after the other on the sites. A slot without a fault, and a fault of size zero,
-leave every bit of the healthy signal as it was.
+A slot without a fault, and a fault of size zero, leave every bit of the healthy signal as it was.
 """
 
 from collections.abc import Sequence
-from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 
-from fddbench.blocks.functions import sin
-from fddbench.blocks.layout import Layout, Rows
-from fddbench.faults.specification import FaultSpecification, FaultWave
-from fddbench.interfaces import FaultUnits
+from fddbench.blocks.drawn import Draws
+from fddbench.blocks.layout import Layout, Nothing, Row, Rows, filled, leaves, record
+from fddbench.faults.slot import Slot, SlotConstants, SlotState
+from fddbench.faults.timing import first_samples, last_sample
+from fddbench.interfaces import Fault, FlightFaults, Floats, Site
 
-__all__ = ["NEVER", "FaultStep", "first_samples"]
-
-NEVER = float(2**53)
-"""A sample number that no flight reaches; an exact float64."""
-
-_WAVE = tuple(FaultWave.__dataclass_fields__)
+__all__ = ["SignalFaults", "SignalFaultsState"]
 
 
-def first_samples(fault: FaultSpecification, sites: Sequence[str], sample_s: float) -> list[float]:
-    """First faulty sample of every site of the benchmark, `NEVER` for those the fault leaves alone."""
-    onset = {site: fault.onset_s + fault.delay_s * nth for nth, site in enumerate(fault.sites)}
-    return [float(round(onset[site] / sample_s)) if site in onset else NEVER for site in sites]
+@record
+class SignalFaultsState:
+    """What was read last on every site (only where something can freeze), and what the slots keep."""
+
+    before: Rows
+    slots: tuple[SlotState, ...]
 
 
-class FaultStep:
-    """Faults of up to `slots` slots on all sites of a benchmark.
+class SignalFaults:
+    """Faults on the sites of one signal, see `fddbench.blocks.block.Block`.
 
     Parameters
     ----------
-    sites : sequence of str
-        Fault sites of the benchmark, in order.
-    slots : int
-        Most faults that a scenario of the campaign has.
+    sites : sequence of Site
+        All fault sites of the benchmark, in order: their positions are the addresses of random numbers.
+    signal : str
+        The signal whose sites these are, in the order of its rows.
+    faults : sequence of sequences of Fault
+        Faults of every scenario that will fly; a kind that none of them uses here costs nothing.
     sample_s : float
         Sample time [s].
     """
 
-    def __init__(self, sites: Sequence[str], slots: int, sample_s: float) -> None:
-        n = len(sites)
-        self.sites, self.slots, self.sample_s = tuple(sites), slots, sample_s
-        slot = Layout(**dict.fromkeys(_WAVE, 0), bit_samples=0, independent=0, first=n, last=n, sign=n, phase=n)
-        self.slot = slot
-        self.constants = Layout(**{f"slot_{j}": slot.size for j in range(slots)})
-        self.states = Layout(**{name: n for j in range(slots) for name in (f"held_{j}", f"bit_{j}")}, last_healthy=n)
-
-    def rows(self, faults: Sequence[FaultSpecification], units: FaultUnits, phases: np.ndarray) -> np.ndarray:
-        """Constant rows of one scenario, (n_rows, n_cases).
-
-        Parameters
-        ----------
-        faults : sequence of FaultSpecification
-            Faults of the scenario, at most `slots`.
-        units : FaultUnits
-            Ranges of the faulty signal.
-        phases : (slots, n_sites, n_cases) array
-            Uniform numbers in (0, 1) for faults that draw their phase per case.
-        """
-        n_cases = phases.shape[-1]
-        columns = [self._column(fault, units) for fault in faults]
-        columns += [self._empty()] * (self.slots - len(faults))
-        rows = np.repeat(np.concatenate(columns)[:, np.newaxis], n_cases, axis=1) if columns else np.zeros((0, n_cases))
-        for j, fault in enumerate(faults):
-            if fault.wave(units).phase_uniform:
-                site = slice(None) if fault.correlation == "independent" else 0
-                start = self.slot.size * j + self.slot.index["phase"].start  # type: ignore[union-attr]
-                rows[start : start + len(self.sites)] = 2.0 * np.pi * phases[j, site]
-        return rows
-
-    def _column(self, fault: FaultSpecification, units: FaultUnits) -> np.ndarray:
-        """Constants of one fault, (n_slot_rows,)."""
-        wave = fault.wave(units)
-        signs = {
-            site: -1.0 if fault.correlation == "opposite" and nth % 2 else 1.0 for nth, site in enumerate(fault.sites)
-        }
-        last = NEVER if fault.end_s is None else float(round(fault.end_s / self.sample_s)) - 1.0
-        values = {name: np.array(getattr(wave, name)) for name in _WAVE}
-        packed: np.ndarray = self.slot.pack(
-            **values,
-            bit_samples=np.array(max(1.0, float(round(wave.bit_s / self.sample_s)))),
-            independent=np.array(float(fault.correlation == "independent")),
-            first=np.array(first_samples(fault, self.sites, self.sample_s)),
-            last=np.full(len(self.sites), last),
-            sign=np.array([signs.get(site, 0.0) for site in self.sites]),
-            phase=np.full(len(self.sites), wave.phase_rad),
+    def __init__(self, sites: Sequence[Site], signal: str, faults: Sequence[Sequence[Fault]], sample_s: float) -> None:
+        positions = sorted((j for j, site in enumerate(sites) if site.signal == signal), key=lambda j: sites[j].row)
+        self.sites = tuple(sites[j] for j in positions)
+        self.rows = [site.row for site in self.sites]
+        self.positions, self.sample_s = tuple(positions), sample_s
+        self.numbers = self._used(faults)
+        self.slots = tuple(self._slot(j, faults) for j in self.numbers)
+        self.freezes = any(slot.freezes for slot in self.slots)
+        self.states = Layout(
+            SignalFaultsState(
+                before=len(self.sites) if self.freezes else Nothing(),
+                slots=tuple(slot.states.shape for slot in self.slots),
+            )
         )
+        self.constants: Layout[tuple[SlotConstants, ...]] = Layout(tuple(slot.constants.shape for slot in self.slots))
+        self.draws: Draws[Any] = Draws(tuple(slot.draws.names for slot in self.slots))
+
+    def _here(self, fault: Fault) -> bool:
+        return any(site.name in fault.sites for site in self.sites)
+
+    def _used(self, faults: Sequence[Sequence[Fault]]) -> tuple[int, ...]:
+        """Numbers of the slots in which some scenario has a fault on these sites."""
+        return tuple(sorted({j for one in faults for j, fault in enumerate(one) if self._here(fault)}))
+
+    def _slot(self, number: int, faults: Sequence[Sequence[Fault]]) -> Slot:
+        here = [one[number] for one in faults if number < len(one) and self._here(one[number])]
+        kinds = tuple(sorted({type(fault) for fault in here}, key=lambda kind: (kind.__module__, kind.__qualname__)))
+        freezes = any(fault.freeze for fault in here)
+        return Slot(number, kinds, self.positions, self.sample_s, freezes=freezes)
+
+    def prepare(self, faults: FlightFaults) -> tuple[SlotConstants, ...]:
+        """Constants of flights."""
+        rows = np.empty((self.constants.size, len(faults.which)))
+        for s in np.unique(faults.which).tolist():
+            mine = faults.which == s
+            rows[:, mine] = self._packed(faults.lists[s], faults.uniform[:, :, mine])
+        return self.constants.unpack(rows)
+
+    def _packed(self, faults: Sequence[Fault], uniform: Floats) -> Floats:
+        """Constants of flights of one scenario, (n_rows, n_cases)."""
+        n_cases = uniform.shape[2]
+        found = []
+        for number, slot in zip(self.numbers, self.slots, strict=True):
+            fault = faults[number] if number < len(faults) else None
+            here = fault is not None and self._here(fault)
+            own = self._constants(slot, fault, uniform[number]) if fault is not None and here else slot.nothing()
+            found.append(slot.constants.pack(slot.constants.spread(own, n_cases), n_cases))
+        packed: Floats = np.concatenate([*found, np.zeros((0, n_cases))])
         return packed
 
-    def _empty(self) -> np.ndarray:
-        """Constants of a slot without a fault."""
-        never = {"first": np.full(len(self.sites), NEVER), "last": np.zeros(len(self.sites))}
-        values = {name: np.zeros(rows) if rows else np.array(0.0) for name, rows in self.slot.fields.items()}
-        packed: np.ndarray = self.slot.pack(**{**values, **never})
-        return packed
+    def _constants(self, slot: Slot, fault: Fault, uniform: Floats) -> SlotConstants:
+        """Constants of a fault on the sites of this signal; what it does not touch stays as without it."""
+        kind, names = slot.kinds.index(type(fault)), [site.name for site in self.sites]
+        own = uniform if fault.correlation == "independent" else np.broadcast_to(uniform[:1], uniform.shape)
+        sizes = [
+            fault.numbers(site, own[position]) if site.name in fault.sites else None
+            for site, position in zip(self.sites, self.positions, strict=True)
+        ]
+        signs = {s: -1.0 if fault.correlation == "opposite" and nth % 2 else 1.0 for nth, s in enumerate(fault.sites)}
+        held = [fault.held(site) if site.name in fault.sites else 0.0 for site in self.sites]
+        kinds = list(slot.nothing().kinds)
+        kinds[kind] = _stacked(slot.blocks[kind].constants, sizes, uniform.shape[1])
+        return SlotConstants(
+            first=_column(first_samples(fault, names, self.sample_s)),
+            last=last_sample(fault, self.sample_s),
+            sign=_column([signs.get(name, 0.0) for name in names]),
+            stands=float(fault.mode == "replace"),
+            freezes=float(fault.freeze),
+            held=_column(held),
+            independent=float(fault.correlation == "independent"),
+            kind=float(kind),
+            kinds=tuple(kinds),
+        )
+
+    def start(self, c: tuple[SlotConstants, ...]) -> SignalFaultsState:
+        """Nothing read, nothing frozen."""
+        slots = tuple(slot.start(own) for slot, own in zip(self.slots, c, strict=True))
+        return SignalFaultsState(before=0.0 if self.freezes else Nothing(), slots=slots)
 
     def step(
-        self, healthy: Rows, state: Rows, constants: Rows, normals: Sequence[Rows], sample: Rows
-    ) -> tuple[Rows, Rows]:
-        """Faulty signal, (n_sites, n_cases), and the state at the next sample.
+        self, x: SignalFaultsState, c: tuple[SlotConstants, ...], n: Any, healthy: Rows, sample: Row
+    ) -> tuple[SignalFaultsState, Rows]:
+        """State at the next sample, and the faulty signal, (n_sites, n_cases), of the healthy one; `sample` is its number."""
+        signal, kept = healthy, []
+        # a freeze at the first sample holds that sample's own reading
+        before = np.where(sample > 0.0, x.before, healthy) if self.freezes else healthy
+        for slot, own, constants, numbers in zip(self.slots, x.slots, c, n, strict=True):
+            after, signal = slot.step(own, constants, numbers, signal, before, sample)
+            kept.append(after)
+        return SignalFaultsState(before=signal if self.freezes else Nothing(), slots=tuple(kept)), signal
 
-        Parameters
-        ----------
-        healthy : (n_sites, n_cases) rows
-            Signal without faults.
-        normals : sequence of (4, n_cases) rows
-            Four normals per slot from the scenario's stream; site i takes number i when independent, else number 0.
-        sample : number
-            Sample k.
-        """
-        x, named = self.states.unpack(state), self.constants.unpack(constants)
-        signal, after = healthy, {"last_healthy": healthy}
-        for j in range(self.slots):
-            held, bit = getattr(x, f"held_{j}"), getattr(x, f"bit_{j}")
-            signal, after[f"held_{j}"], after[f"bit_{j}"] = self._slot(
-                signal, x.last_healthy, held, bit, self.slot.unpack(getattr(named, f"slot_{j}")), normals[j], sample
-            )
-        return signal, self.states.pack(**after)
 
-    def _slot(
-        self, y: Rows, before: Rows, held: Rows, bit: Rows, c: SimpleNamespace, normals: Rows, sample: Rows
-    ) -> tuple[Rows, Rows, Rows]:
-        """One fault on all sites: signal, held value and random bit."""
-        since = sample - c.first
-        active = (since >= 0.0) & (sample <= c.last)
-        held = np.where(since == 0.0, before, held)
-        random = np.where(c.independent > 0.0, normals[: len(self.sites)], normals[:1])
-        new_bit = since - c.bit_samples * np.floor(since / np.maximum(c.bit_samples, 1.0)) == 0.0
-        bit = np.where(new_bit, np.where(random >= 0.0, 1.0, -1.0), bit)
-        time_s = np.where(active, since, 0.0) * self.sample_s
-        ramp = np.minimum(np.maximum(c.rate * time_s, -c.ramp_limit), c.ramp_limit)
-        sine = c.amplitude * sin(c.frequency_rad_s * time_s + c.phase)
-        wave = c.offset + ramp + sine + c.sigma * random + c.bit * bit
-        sum_ = c.keep * y + c.hold * held + c.hold_value + c.sign * wave
-        clipped = np.minimum(np.maximum(sum_, -c.clip), c.clip)
-        return np.where(active, clipped, y), held, bit
+def _column(values: Sequence[float]) -> Floats:
+    """One number a site, (n_sites, 1)."""
+    return np.array(values, dtype=np.float64)[:, np.newaxis]
+
+
+def _stacked(layout: Layout[Any], sizes: Sequence[Any], n_cases: int) -> Any:
+    """Constants of a kind from those of every site (None: not faulty, all zero), the sites below each other."""
+    each = [None if size is None else dict(leaves(size)) for size in sizes]
+    found = []
+    for path, rows in layout.counts.items():
+        shape = (rows // len(sizes), n_cases)
+        found.append(np.concatenate([np.broadcast_to(0.0 if own is None else own[path], shape) for own in each]))
+    return filled(layout.shape, iter(found))

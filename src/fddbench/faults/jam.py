@@ -2,8 +2,9 @@
 
 from typing import ClassVar, Literal
 
-from fddbench.faults.specification import FaultSpecification, FaultWave, Finite
-from fddbench.interfaces import FaultUnits
+from fddbench.faults.bias import Offset
+from fddbench.faults.specification import FaultSpecification, Finite
+from fddbench.interfaces import Floats, Site
 
 __all__ = ["Jam"]
 
@@ -20,18 +21,20 @@ class Jam(FaultSpecification):
     """
 
     about: ClassVar[str] = "a constant offset (add) or a stuck sensor (replace)"
+    profile = Offset
 
     kind: Literal["jam"]
     amplitude_percent: Finite | None = None
     amplitude: Finite | None = None
 
-    def wave(self, units: FaultUnits) -> FaultWave:
-        """Offset, or the held value alone."""
-        if self.mode == "replace":
-            if self.amplitude_percent is not None or self.amplitude is not None:
-                raise ValueError("a jam with mode: replace stands at hold_value_* or freezes; remove the amplitude")
-            if not self.freeze and self.hold_value is None and self.hold_value_percent is None:
-                held = f"{self.key('hold_value')} | hold_value_percent"
-                raise ValueError(f"a jam with mode: replace needs freeze: true | {held}")
-            return FaultWave(**self.base(units))
-        return FaultWave(offset=self.size("amplitude", "amplitude_percent", units))
+    def numbers(self, site: Site, uniform: Floats) -> Offset:
+        """Offset, or none beside the held value."""
+        del uniform
+        if self.mode == "add":
+            return Offset(offset=self.size("amplitude", site))
+        if self.amplitude_percent is not None or self.amplitude is not None:
+            raise ValueError("a jam with mode: replace stands at hold_value_* or freezes; remove the amplitude")
+        if not self.freeze and self.hold_value is None and self.hold_value_percent is None:
+            held = f"{self.key('hold_value')} | hold_value_percent"
+            raise ValueError(f"a jam with mode: replace needs freeze: true | {held}")
+        return Offset(offset=0.0)

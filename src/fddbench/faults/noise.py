@@ -1,13 +1,41 @@
 """Noise: the sensor turns noisy."""
 
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
-from fddbench.faults.specification import FaultSpecification, FaultWave, NonNegative
-from fddbench.interfaces import FaultUnits
+from fddbench.blocks.block import NOTHING
+from fddbench.blocks.layout import Layout, Nothing, Rows, record
+from fddbench.faults.profile import constants_of
+from fddbench.faults.specification import FaultSpecification, NonNegative
+from fddbench.interfaces import Floats, Instant, Site
 
 __all__ = ["Noise"]
+
+
+@record
+class Sigma:
+    """Standard deviation of a sample, in the unit of the site."""
+
+    sigma: Rows
+
+
+class NoiseBlock:
+    """A normal number added at every sample."""
+
+    states: Layout[Any] = NOTHING
+
+    def __init__(self, n_sites: int) -> None:
+        self.constants = constants_of(Sigma, n_sites)
+
+    def start(self, c: Sigma) -> Nothing:
+        """Nothing to keep."""
+        del c
+        return Nothing()
+
+    def step(self, x: Nothing, c: Sigma, reading: Rows, now: Instant) -> tuple[Nothing, Rows]:
+        """What the sites show."""
+        return x, reading + now.sign * (c.sigma * now.random)
 
 
 class Noise(FaultSpecification):
@@ -21,12 +49,19 @@ class Noise(FaultSpecification):
     """
 
     about: ClassVar[str] = "white noise on every sample"
+    random: ClassVar[bool] = True
 
     kind: Literal["noise"]
     variance_percent: NonNegative | None = None
     variance: NonNegative | None = None
 
-    def wave(self, units: FaultUnits) -> FaultWave:
+    def numbers(self, site: Site, uniform: Floats) -> Sigma:
         """Noise of the given variance."""
-        variance = self.size("variance", "variance_percent", units)
-        return FaultWave(**self.base(units), sigma=float(np.sqrt(variance)))
+        del uniform
+        return Sigma(sigma=np.sqrt(self.size("variance", site)))
+
+    @classmethod
+    def block(cls, n_sites: int, sample_s: float) -> NoiseBlock:
+        """What flies of it."""
+        del sample_s
+        return NoiseBlock(n_sites)

@@ -1,13 +1,51 @@
 """NRZ: a non-return-to-zero bit stream on the sensor."""
 
-from typing import Annotated, ClassVar, Literal
+from typing import ClassVar, Literal
 
-from pydantic import Field
+import numpy as np
 
-from fddbench.faults.specification import FaultSpecification, FaultWave, Finite
-from fddbench.interfaces import FaultUnits
+from fddbench.blocks.layout import Layout, Rows, record
+from fddbench.faults.profile import constants_of
+from fddbench.faults.specification import FaultSpecification, Finite, Positive
+from fddbench.interfaces import Floats, Instant, Site
 
 __all__ = ["Nrz"]
+
+
+@record
+class Bits:
+    """Size of a bit, in the unit of the site, and its length [s]."""
+
+    size: Rows
+    bit_s: Rows
+
+
+@record
+class BitState:
+    """The bit that stands, +1 or -1."""
+
+    bit: Rows
+
+
+class NrzBlock:
+    """Plus or minus a size, drawn anew at every bit; a bit lasts whole samples, at least one."""
+
+    def __init__(self, n_sites: int, sample_s: float) -> None:
+        self.sample_s = sample_s
+        self.constants = constants_of(Bits, n_sites)
+        self.states = Layout(BitState(bit=n_sites))
+
+    def start(self, c: Bits) -> BitState:
+        """No bit yet."""
+        del c
+        return BitState(bit=0.0)
+
+    def step(self, x: BitState, c: Bits, reading: Rows, now: Instant) -> tuple[BitState, Rows]:
+        """What the sites show."""
+        length = np.maximum(np.rint(c.bit_s / self.sample_s), 1.0)
+        begins = now.since_samples - length * np.floor(now.since_samples / length) == 0.0
+        bit = np.where(begins, np.where(now.random >= 0.0, 1.0, -1.0), x.bit)
+        return BitState(bit=bit), reading + now.sign * (c.size * bit)
 
 
 class Nrz(FaultSpecification):
@@ -22,13 +60,19 @@ class Nrz(FaultSpecification):
     """
 
     about: ClassVar[str] = "random plus or minus a size, bit by bit"
+    random: ClassVar[bool] = True
 
     kind: Literal["nrz"]
     amplitude_percent: Finite | None = None
     amplitude: Finite | None = None
-    bit_s: Annotated[float, Field(gt=0.0, allow_inf_nan=False)] = 0.05
+    bit_s: Positive = 0.05
 
-    def wave(self, units: FaultUnits) -> FaultWave:
+    def numbers(self, site: Site, uniform: Floats) -> Bits:
         """Bit stream of the given size."""
-        size = self.size("amplitude", "amplitude_percent", units)
-        return FaultWave(**self.base(units), bit=size, bit_s=self.bit_s)
+        del uniform
+        return Bits(size=self.size("amplitude", site), bit_s=self.bit_s)
+
+    @classmethod
+    def block(cls, n_sites: int, sample_s: float) -> NrzBlock:
+        """What flies of it."""
+        return NrzBlock(n_sites, sample_s)

@@ -1,14 +1,29 @@
 """Oscillatory failure: a sine on the sensor."""
 
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, Self
 
 import numpy as np
 from pydantic import model_validator
 
-from fddbench.faults.specification import FaultSpecification, FaultWave, Finite, one_of
-from fddbench.interfaces import FaultUnits
+from fddbench.blocks.functions import sin
+from fddbench.blocks.layout import Rows, record
+from fddbench.faults.specification import FaultSpecification, Finite, one_of
+from fddbench.interfaces import Floats, Site
 
 __all__ = ["Oscillatory"]
+
+
+@record
+class Sine:
+    """Amplitude in the unit of the site, frequency [rad/s], and phase at the onset [rad]."""
+
+    amplitude: Rows
+    frequency_rad_s: Rows
+    phase_rad: Rows
+
+    def at(self, time_s: Rows) -> Rows:
+        """The sine."""
+        return self.amplitude * sin(self.frequency_rad_s * time_s + self.phase_rad)
 
 
 class Oscillatory(FaultSpecification):
@@ -27,6 +42,7 @@ class Oscillatory(FaultSpecification):
     """
 
     about: ClassVar[str] = "a sine on the sensor"
+    profile = Sine
 
     kind: Literal["oscillatory"]
     amplitude_percent: Finite | None = None
@@ -37,18 +53,16 @@ class Oscillatory(FaultSpecification):
     phase: Literal["uniform"] | None = None
 
     @model_validator(mode="after")
-    def _one_phase(self) -> "Oscillatory":
+    def _one_phase(self) -> Self:
         if self.phase is not None and self.phase_rad is not None:
             raise ValueError("give phase_rad or phase: uniform, not both")
         return self
 
-    def wave(self, units: FaultUnits) -> FaultWave:
+    def numbers(self, site: Site, uniform: Floats) -> Sine:
         """Sine of the given size."""
         turns = None if self.frequency_hz is None else 2.0 * np.pi * self.frequency_hz
-        return FaultWave(
-            **self.base(units),
-            amplitude=self.size("amplitude", "amplitude_percent", units),
+        return Sine(
+            amplitude=self.size("amplitude", site),
             frequency_rad_s=one_of(frequency_hz=turns, frequency_rad_s=self.frequency_rad_s),
-            phase_rad=self.phase_rad or 0.0,
-            phase_uniform=float(self.phase == "uniform"),
+            phase_rad=2.0 * np.pi * uniform if self.phase else self.phase_rad or 0.0,
         )

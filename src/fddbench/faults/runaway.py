@@ -1,11 +1,44 @@
 """Runaway: the sensor drives away at a constant rate until it reaches its stop."""
 
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
-from fddbench.faults.specification import FaultSpecification, FaultWave, Finite
-from fddbench.interfaces import FaultUnits
+import numpy as np
+
+from fddbench.blocks.block import NOTHING
+from fddbench.blocks.layout import Layout, Nothing, Rows, record
+from fddbench.faults.profile import constants_of
+from fddbench.faults.specification import FaultSpecification, Finite
+from fddbench.interfaces import Floats, Instant, Site
 
 __all__ = ["Runaway"]
+
+
+@record
+class Drive:
+    """Slope [unit/s], and the stops of the site in its unit."""
+
+    rate: Rows
+    low: Rows
+    high: Rows
+
+
+class RunawayBlock:
+    """A ramp added to the reading, the sum clipped at the stops."""
+
+    states: Layout[Any] = NOTHING
+
+    def __init__(self, n_sites: int) -> None:
+        self.constants = constants_of(Drive, n_sites)
+
+    def start(self, c: Drive) -> Nothing:
+        """Nothing to keep."""
+        del c
+        return Nothing()
+
+    def step(self, x: Nothing, c: Drive, reading: Rows, now: Instant) -> tuple[Nothing, Rows]:
+        """What the sites show."""
+        driven = reading + now.sign * (c.rate * now.time_s)
+        return x, np.minimum(np.maximum(driven, c.low), c.high)
 
 
 class Runaway(FaultSpecification):
@@ -23,10 +56,13 @@ class Runaway(FaultSpecification):
     rate_percent_s: Finite | None = None
     rate: Finite | None = None
 
-    def wave(self, units: FaultUnits) -> FaultWave:
-        """Ramp of the given slope, clipped at the sensor's range."""
-        return FaultWave(
-            **self.base(units),
-            rate=self.size("rate", "rate_percent_s", units),
-            clip=units.sensor_range,
-        )
+    def numbers(self, site: Site, uniform: Floats) -> Drive:
+        """Ramp of the given slope, clipped at the stops of the site."""
+        del uniform
+        return Drive(rate=self.size("rate", site), low=site.stops[0], high=site.stops[1])
+
+    @classmethod
+    def block(cls, n_sites: int, sample_s: float) -> RunawayBlock:
+        """What flies of it."""
+        del sample_s
+        return RunawayBlock(n_sites)

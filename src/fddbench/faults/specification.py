@@ -1,80 +1,33 @@
 """What all faults have in common in a campaign: sites, times, mode, correlation, and sizes with explicit units.
 
 The sizes are called ``amplitude``, ``rate``, ``variance`` and ``hold_value`` here. A campaign writes them with the unit of
-its benchmark's fault sites, ``amplitude_deg_s`` or plain ``amplitude``: `FaultSpecification.in_unit` is the same kind with
-other keys, so a key of another benchmark's unit is an unknown key.
+its sites, ``amplitude_deg_s`` or plain ``amplitude``: `FaultSpecification.in_unit` is the same kind with other keys, so a
+key of another unit is an unknown key.
 """
 
-from dataclasses import dataclass, field
 from functools import cache
-from typing import Annotated, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
+import numpy as np
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 
-from fddbench.interfaces import FaultUnits
+from fddbench.errors import FddbenchError
+from fddbench.faults.profile import Profile, ProfileBlock
+from fddbench.interfaces import FaultBlock, Floats, Site
+from fddbench.units import UNITS, unit
 
-__all__ = ["FaultSpecification", "FaultWave", "Finite", "NonNegative", "one_of"]
+__all__ = ["FaultSpecification", "Finite", "NonNegative", "Positive", "one_of"]
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 NonNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
+Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 
-_KEYS = {
-    "deg/s": {"amplitude": "_deg_s", "hold_value": "_deg_s", "rate": "_deg_s2", "variance": "_deg2_s2"},
-    "": {"amplitude": "", "hold_value": "", "rate": "_per_s", "variance": ""},
-}
-"""What a key carries behind the name of a size, by the unit of the fault sites (`FaultUnits.unit`)."""
-
-
-def _key(name: str) -> str:
-    """Key of a size in the default unit.
-
-    >>> _key("amplitude"), _key("rate"), _key("rate_percent_s")
-    ('amplitude_deg_s', 'rate_deg_s2', 'rate_percent_s')
-    """
-    return name + _KEYS["deg/s"].get(name, "")
+_PERCENT = {"rate": "rate_percent_s"}
+"""Keys of sizes in percent that are not called ``<size>_percent``."""
+_ANY_SITE = Site(name="any", signal="any", unit_name="", admissible=1.0, stops=(-1.0, 1.0))
 
 
-@dataclass(frozen=True, kw_only=True)
-class FaultWave:
-    """The one fault signal: ``keep y + hold y_onset + hold_value + offset + ramp + sine + noise + bits``, clipped.
-
-    All sizes are in the unit of the fault sites.
-
-    Attributes
-    ----------
-    keep, hold : float
-        Share of the healthy and of the frozen signal [-].
-    hold_value : float
-        What stands in place of the healthy signal; the same on all sites, whatever the correlation.
-    offset, ramp_limit, clip : float
-        Constant part, where the ramp stops, and where the sum is clipped; infinite for never.
-    rate : float
-        Slope of the ramp [1/s].
-    amplitude, frequency_rad_s, phase_rad, phase_uniform : float
-        Sine; its phase at the onset, or 1 to draw it uniformly per case.
-    sigma : float
-        White noise per sample, one sigma.
-    bit, bit_s : float
-        Random plus or minus, and how long each lasts.
-    """
-
-    keep: float = 1.0
-    hold: float = 0.0
-    hold_value: float = 0.0
-    offset: float = 0.0
-    rate: float = 0.0
-    ramp_limit: float = field(default=float("inf"))
-    clip: float = field(default=float("inf"))
-    amplitude: float = 0.0
-    frequency_rad_s: float = 0.0
-    phase_rad: float = 0.0
-    phase_uniform: float = 0.0
-    sigma: float = 0.0
-    bit: float = 0.0
-    bit_s: float = 1.0
-
-
-def one_of(**options: float | None) -> float:
+def one_of(**options: Any) -> Any:
     """Value of the only option that is given.
 
     Raises
@@ -85,9 +38,7 @@ def one_of(**options: float | None) -> float:
     given = [name for name, value in options.items() if value is not None]
     if len(given) != 1:
         raise ValueError(f"need exactly one of {' | '.join(options)}, got {', '.join(given) or 'none'}")
-    value = options[given[0]]
-    assert value is not None
-    return value
+    return options[given[0]]
 
 
 def _distinct(sites: tuple[str, ...]) -> tuple[str, ...]:
@@ -97,14 +48,16 @@ def _distinct(sites: tuple[str, ...]) -> tuple[str, ...]:
 
 
 class FaultSpecification(BaseModel):
-    """A fault as a campaign writes it; each kind adds its sizes and says what wave they make.
+    """A fault as a campaign writes it; each kind adds its sizes and says what they do to the signal of a site.
+
+    A kind either has a `profile` (what is added to the signal), or a `block` of its own.
 
     Attributes
     ----------
     mode : {"add", "replace"}
         Added to the healthy signal (the published cases), or put in its place.
     sites : tuple of str
-        Faulty sensors, by the names of the benchmark.
+        Faulty sites, by the names of the benchmark.
     onset_s, end_s : float, float or None
         First faulty sample, and first healthy one again (None: never) [s].
     correlation : {"identical", "independent", "opposite"}
@@ -112,13 +65,17 @@ class FaultSpecification(BaseModel):
     delay_s : float
         Later onset of the second site, twice that for the third [s].
     freeze : bool
-        With ``replace``: the signal stands at its last healthy value.
+        With ``replace``: the signal stands at its last reading.
     hold_value, hold_value_percent : float
         With ``replace``: the value the fault signal is added to (0 by default).
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True, alias_generator=_key)
+    model_config = ConfigDict(extra="forbid", frozen=True, alias_generator=UNITS["deg/s"].key)
     about: ClassVar[str] = ""
+    random: ClassVar[bool] = False
+    """Whether the kind draws a normal number at every sample."""
+    profile: ClassVar[type[Profile] | None] = None
+    """What is added to the signal, for kinds that need no block of their own."""
 
     kind: str
     mode: Literal["add", "replace"] = "add"
@@ -132,7 +89,7 @@ class FaultSpecification(BaseModel):
     hold_value_percent: Finite | None = None
 
     @model_validator(mode="after")
-    def _consistent(self) -> "FaultSpecification":
+    def _consistent(self) -> Self:
         if self.end_s is not None and self.end_s <= self.onset_s:
             raise ValueError(f"end_s must lie after onset_s = {self.onset_s}, got {self.end_s}")
         held = [self.freeze, self.hold_value is not None, self.hold_value_percent is not None]
@@ -140,44 +97,60 @@ class FaultSpecification(BaseModel):
             raise ValueError("freeze and hold_value_* need mode: replace")
         if sum(held) > 1:
             raise ValueError(f"give one of freeze, {self.key('hold_value')}, hold_value_percent")
-        self.wave(FaultUnits(unit="", admissible=1.0, sensor_range=1.0))
+        self.numbers(_ANY_SITE, np.full(1, 0.5))
         return self
 
     @classmethod
-    def in_unit(cls, unit: str) -> type[Self]:
-        """Return this kind with the keys of a benchmark whose fault sites have the unit "deg/s", or "" for none."""
-        return _in_unit(cls, unit)  # type: ignore[return-value]
+    def in_unit(cls, name: str) -> type[Self]:
+        """Return this kind with the keys of sites in a unit, e.g. "deg/s", or "" for plain numbers.
+
+        Raises
+        ------
+        FddbenchError
+            `fddbench.units` has no such unit.
+        """
+        return _in_unit(cls, name)  # type: ignore[return-value]
 
     @classmethod
     def key(cls, name: str) -> str:
         """Key of a field as a campaign writes it."""
         return cls.model_fields[name].alias or name
 
-    def size(self, name: str, percent: str, units: FaultUnits) -> float:
-        """Size given in the unit of the sites or in percent of the admissible range, whichever is given; one must be."""
+    def size(self, name: str, site: Site) -> Any:
+        """Size in the unit of a site, given so or in percent of its admissible range; one of the two must be given."""
+        percent = _PERCENT.get(name, f"{name}_percent")
         share = getattr(self, percent)
-        of_range = None if share is None else share / 100.0 * units.admissible
+        of_range = None if share is None else share / 100.0 * site.admissible
         return one_of(**{percent: of_range, self.key(name): getattr(self, name)})
 
-    def wave(self, units: FaultUnits) -> FaultWave:
-        """Signal of this fault in the units of a benchmark; raises ValueError when a size is missing or given twice."""
+    def numbers(self, site: Site, uniform: Floats) -> Any:
+        """Constants on one site, see `fddbench.interfaces.Fault.numbers`.
+
+        Raises
+        ------
+        ValueError
+            A size is missing or given twice.
+        """
         raise NotImplementedError
 
-    def base(self, units: FaultUnits) -> dict[str, float]:
-        """Wave fields that follow from the mode: what remains of the healthy signal."""
-        if self.mode == "add":
-            return {}
-        if self.freeze:
-            return {"keep": 0.0, "hold": 1.0}
-        percent = (self.hold_value_percent or 0.0) / 100.0 * units.admissible
-        return {"keep": 0.0, "hold_value": percent + (self.hold_value or 0.0)}
+    def held(self, site: Site) -> Any:
+        """What stands in place of the signal with ``mode: replace``, in the unit of the site."""
+        percent = (self.hold_value_percent or 0.0) / 100.0 * site.admissible
+        return percent + (self.hold_value or 0.0)
+
+    @classmethod
+    def block(cls, n_sites: int, sample_s: float) -> FaultBlock:
+        """What flies of this kind on so many sites; the `profile` added to the signal unless the kind has its own."""
+        if cls.profile is None:
+            raise FddbenchError(f"the fault {cls.__name__} has neither a profile nor a block of its own")
+        return ProfileBlock(cls.profile, n_sites, sample_s)
 
 
 @cache
-def _in_unit(kind: type[FaultSpecification], unit: str) -> type[FaultSpecification]:
+def _in_unit(kind: type[FaultSpecification], name: str) -> type[FaultSpecification]:
     """Kind with the keys of a unit; always the same class for the same kind."""
-    if unit == "deg/s":
+    if name == "deg/s":
         return kind
-    config = ConfigDict(alias_generator=lambda name: name + _KEYS[unit].get(name, ""))
+    config = ConfigDict(alias_generator=unit(name).key)
     namespace = {"model_config": config, "__module__": kind.__module__, "__doc__": kind.__doc__}
     return type(kind.__name__, (kind,), namespace)

@@ -177,15 +177,14 @@ def event_columns(
     `cases` are positions in the batch, `end` the last sample of their flights that was scored, (n,).
     """
     x, c = scoring.states.unpack(score), scoring.constants.unpack(constants)
-    interval = scoring.event.unpack(getattr(c, f"event_{event}"))
+    interval, found = c.events[event], x.events[event]
     times = _times(
-        getattr(x, f"event_alarm_{event}")[cases],
-        getattr(x, f"event_detection_{event}")[cases],
+        found.alarm[cases],
+        found.detection[cases],
         k0=interval.first[cases],
         end=np.minimum(interval.last[cases], end),
         limit_s=np.full(len(cases), limit_s),
         sample_s=sample_s,
         valid=valid,
     )
-    early = getattr(x, f"early_{event}")[cases] > 0.0
-    return times | {"false_alarm": _nullable(early, valid)}
+    return times | {"false_alarm": _nullable(found.early[cases] > 0.0, valid)}

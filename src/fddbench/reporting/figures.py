@@ -8,6 +8,7 @@ import pandas as pd
 
 from fddbench.interfaces import Floats
 from fddbench.reporting.pictures import INK, ORDINARY, WARNING, colour, dashes, to_png
+from fddbench.units import suffix_of_name, unit_of_name
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -15,18 +16,6 @@ if TYPE_CHECKING:
 
 __all__ = ["detection_curve", "detection_curves", "envelope", "label"]
 
-_UNITS = {
-    **{
-        "deg_s2": "deg/s²",
-        "deg_s": "deg/s",
-        "rad_s": "rad/s",
-        "m_s": "m/s",
-        "m_s2": "m/s²",
-        "deg": "deg",
-        "rad": "rad",
-    },
-    **{"kt": "kt", "ft": "ft", "m": "m", "kg": "kg", "s": "s", "hz": "Hz", "percent": "%", "ratio": "-"},
-}
 _PAIRS = (("p_v_cas_kt", "p_altitude_ft"), ("p_x_cg_ratio", "p_mass_kg"))
 
 
@@ -37,10 +26,9 @@ def label(name: str) -> str:
     ('reconstruction [deg/s]', 'mass [kg]', 'n declared')
     """
     name = name.removeprefix("p_")
-    for suffix in sorted(_UNITS, key=len, reverse=True):
-        if name.endswith(f"_{suffix}"):
-            return f"{name.removesuffix(f'_{suffix}').replace('_', ' ')} [{_UNITS[suffix]}]"
-    return name.replace("_", " ")
+    unit, suffix = unit_of_name(name), suffix_of_name(name)
+    words = name.removesuffix(suffix).replace("_", " ")
+    return f"{words} [{unit.replace('^2', '²')}]" if suffix else words
 
 
 def detection_curve(time_s: Floats, follow_up_s: Floats, end_s: float) -> tuple[Floats, Floats]:

@@ -21,15 +21,15 @@ _LEFT = re.compile(r"\..+\.[0-9]+\.tmp")
 """What a crash in the middle of a write leaves behind."""
 
 
-def claim(folder: Path, *, files: Mapping[str, str], provenance: Mapping[str, object], fresh: bool) -> bool:
+def claim(folder: Path, *, files: Mapping[str, bytes], provenance: Mapping[str, object], fresh: bool) -> bool:
     """Make a folder this campaign's; True when it already was and the work continues.
 
     Parameters
     ----------
     folder : Path
         Where the results go; made when missing.
-    files : mapping of str to str
-        Frozen campaign and designs by their names in the folder.
+    files : mapping of str to bytes
+        Frozen campaign, designs and what they stand on, by their names in the folder.
     provenance : mapping
         Written once, at the beginning; its ``campaign_sha256`` decides whose folder it is.
     fresh : bool
@@ -72,12 +72,12 @@ def refuse_foreign(folder: Path) -> None:
         raise ResultsError(f"{folder} is a file, no folder of results; name another with --out")
 
 
-def _put_back(folder: Path, files: Mapping[str, str]) -> None:
+def _put_back(folder: Path, files: Mapping[str, bytes]) -> None:
     """Write the frozen files that are missing or not as they were."""
-    for name, text in files.items():
+    for name, content in files.items():
         path = folder / name
-        if not path.is_file() or path.read_bytes() != text.encode():
-            write_bytes(path, text.encode())
+        if not path.is_file() or path.read_bytes() != content:
+            write_bytes(path, content)
 
 
 def _campaign_of(folder: Path) -> object:
@@ -151,11 +151,14 @@ def _clear(folder: Path) -> None:
             path.unlink(missing_ok=True)
 
 
-def _difference(folder: Path, files: Mapping[str, str]) -> str:
+def _difference(folder: Path, files: Mapping[str, bytes]) -> str:
     """What differs between the folder's campaign and this one, as a short diff."""
     lines: list[str] = []
-    for name, text in sorted(files.items(), key=lambda item: item[0] != "campaign.yaml"):
-        before = (folder / name).read_text(encoding="utf-8").splitlines() if (folder / name).is_file() else []
+    for name, content in sorted(files.items(), key=lambda item: item[0] != "campaign.yaml"):
+        before = (
+            (folder / name).read_bytes().decode("utf-8", "replace").splitlines() if (folder / name).is_file() else []
+        )
+        text = content.decode("utf-8", "replace")
         lines += [
             line
             for line in unified_diff(before, text.splitlines(), "there", "here", n=0, lineterm="")

@@ -2,15 +2,20 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from fddbench.blocks import philox
-from fddbench.campaign.meaning import Campaign, build_detectors
+from fddbench.blocks.consumers import fault_number
+from fddbench.blocks.drawn import Draws
+from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.plan import Plan, PlannedScenario, plan
-from fddbench.faults.injection import first_samples
-from fddbench.interfaces import Detector, Flights, Floats, Loop, Options
+from fddbench.designs.adapted import Adapted
+from fddbench.designs.building import build_detectors
+from fddbench.faults.timing import first_samples, last_sample
+from fddbench.interfaces import FlightFaults, Flights, Floats, Loop, Options
 from fddbench.metrics.scoring import NEVER, EventTimes, Scoring
 
 __all__ = ["BEFORE_START", "Assembly", "Batch", "assemble", "has_events"]
@@ -79,7 +84,7 @@ class Assembly:
         Cases.
     loop : Loop
         Benchmark in closed loop.
-    detectors : mapping of str to Detector
+    detectors : mapping of str to Adapted
         By the names of their designs.
     scoring : Scoring
         Score of one detector.
@@ -87,7 +92,7 @@ class Assembly:
 
     plan: Plan
     loop: Loop
-    detectors: Mapping[str, Detector]
+    detectors: Mapping[str, Adapted]
     scoring: Scoring
 
     def batch(self, cases: Cases) -> Batch:
@@ -96,93 +101,108 @@ class Assembly:
         parameters = self.plan.parameters(cases)
         outside = self._outside(parameters)
         streams = np.array([planned.stream for planned in self.plan.scenarios], dtype=np.int64)[scenario]
-        start = self.loop.start(
+        n_cases, loop = len(cases), self.loop
+        prepared = loop.prepare(
             Flights(
                 parameters=parameters,
                 manoeuvres=[self.plan.scenarios[s].manoeuvre for s in scenario],
-                faults=self._per_scenario(self._fault_rows, scenario, run),
-                normals=self._start_normals(run),
+                faults=self._faults(scenario, run, streams),
+                normals=self._before(run, streams),
             )
         )
+        state = loop.states.spread(loop.start(prepared.constants), n_cases)
         return Batch(
             cases=cases,
             scenario=scenario,
             run=run,
             parameters=parameters,
-            state=start.state,
-            constants=start.constants,
-            score_constants=self._per_scenario(self._score_rows, scenario, run),
+            state=loop.states.pack(state, n_cases),
+            constants=loop.constants.pack(loop.constants.spread(prepared.constants, n_cases), n_cases),
+            score_constants=self._score_rows(scenario),
             scenario_stream=streams,
-            infeasible_reason=tuple(a or b for a, b in zip(outside, start.infeasible_reason, strict=True)),
+            infeasible_reason=tuple(a or b for a, b in zip(outside, prepared.infeasible_reason, strict=True)),
         )
 
     def _outside(self, parameters: Mapping[str, Floats]) -> list[str]:
         """Why a case cannot be flown: a normal distribution has drawn a value that the benchmark does not have."""
         reasons = [""] * len(next(iter(parameters.values()), ()))
-        for limit in self.plan.benchmark.parameters:
+        for limit in self.plan.plant.parameters:
             drawn = parameters[limit.name]
             for i in np.flatnonzero((drawn < limit.low) | (drawn > limit.high)).tolist():
                 reasons[i] = f"drawn {limit.name} {drawn[i]:g} lies outside {limit.low:g} to {limit.high:g}"
         return reasons
 
-    def normals(self, batch: Batch, first: int, count: int) -> Floats:
-        """Normals of samples ``first ... first + count - 1``, (count, n_normals, n_cases)."""
+    def nothing_scored(self, batch: Batch) -> Floats:
+        """Score of a detector that saw nothing of a batch, (n_score, n_cases)."""
+        n_cases, states = len(batch.cases), self.scoring.states
+        begun = self.scoring.start(self.scoring.constants.unpack(batch.score_constants))
+        packed: Floats = states.pack(states.spread(begun, n_cases), n_cases)
+        return packed
+
+    def normals(self, draws: Draws[Any], batch: Batch, first: int, count: int) -> Floats:
+        """Normals of samples ``first ... first + count - 1``, (count, n_normals, n_cases), in the order of the draws."""
         sample = np.arange(first, first + count)[:, np.newaxis]
-        key, run = self.plan.campaign.seed, batch.run
-        own = [philox.normals((sample, c, run, self.plan.stream), key) for c in self.loop.consumers]
-        of_faults = [philox.normals((sample, c, run, batch.scenario_stream), key) for c in self.loop.fault_consumers]
-        return np.concatenate([*own, *of_faults]).transpose(1, 0, 2)
+        drawn = self._drawn(philox.normals, draws, sample, batch.run, batch.scenario_stream)
+        return drawn.transpose(1, 0, 2)
 
-    def _start_normals(self, run: Cases) -> Floats:
-        key = self.plan.campaign.seed
-        drawn = [philox.normals((BEFORE_START, c, run, self.plan.stream), key) for c in self.loop.start_consumers]
-        return np.concatenate(drawn)
+    def _before(self, run: Cases, streams: Cases) -> Any:
+        """What the loop draws before the first sample, by name."""
+        return self.loop.before.unpack(self._drawn(philox.normals, self.loop.before, BEFORE_START, run, streams))
 
-    def _per_scenario(self, rows_of: Callable[[PlannedScenario, Cases], Floats], scenario: Cases, run: Cases) -> Floats:
-        """Rows made scenario by scenario, put back into the order of the cases."""
-        parts = {int(s): rows_of(self.plan.scenarios[s], run[scenario == s]) for s in np.unique(scenario)}
-        n_rows = len(next(iter(parts.values()))) if parts else 0
-        rows = np.empty((n_rows, len(scenario)))
-        for s, part in parts.items():
-            rows[:, scenario == s] = part
+    def _drawn(
+        self, generator: Callable[..., Floats], draws: Draws[Any], sample: Any, run: Cases, scenario_stream: Cases
+    ) -> Floats:
+        """Numbers of all the streams of draws, four each, stacked."""
+        words = {"flight": self.plan.stream, "scenario": scenario_stream}
+        key, shape = self.plan.campaign.seed, np.broadcast_shapes(np.shape(sample), run.shape)
+        each = [generator((sample, number, run, words[stream]), key) for number, stream in draws.streams]
+        return np.concatenate([*each, np.zeros((0, *shape))])
+
+    def _faults(self, scenario: Cases, run: Cases, streams: Cases) -> FlightFaults:
+        """Faults of flights, with a uniform number for every slot and site."""
+        lists = [planned.faults for planned in self.plan.scenarios]
+        slots, sites = max((len(one) for one in lists), default=0), len(self.loop.bus.sites)
+        uniform = np.empty((slots, sites, len(run)))
+        for slot in range(slots):
+            for site in range(sites):
+                consumer, place = fault_number(slot, site)
+                counter = (BEFORE_START, consumer, run, streams)
+                uniform[slot, site] = philox.uniforms(counter, self.plan.campaign.seed)[place]
+        return FlightFaults(lists=lists, which=scenario, uniform=uniform)
+
+    def _score_rows(self, scenario: Cases) -> Floats:
+        """Constants of the scoring of flights, (n_rows, n_cases)."""
+        rows = np.empty((self.scoring.constants.size, len(scenario)))
+        for s in np.unique(scenario).tolist():
+            mine = scenario == s
+            rows[:, mine] = self._of_scenario(self.plan.scenarios[s], int(mine.sum()))
         return rows
 
-    def _fault_rows(self, planned: PlannedScenario, run: Cases) -> Floats:
-        slots, sites = len(self.loop.fault_consumers), len(self.loop.bus.sites)
-        key = self.plan.campaign.seed
-        phases = [
-            philox.uniforms((BEFORE_START, c, run, planned.stream), key)[:sites] for c in self.loop.fault_consumers
-        ]
-        return self.loop.fault_rows(planned.faults, np.array(phases).reshape(slots, sites, len(run)))
-
-    def _score_rows(self, planned: PlannedScenario, run: Cases) -> Floats:
-        sample_s, sites = self.plan.campaign.sample_s, self.loop.bus.sites
+    def _of_scenario(self, planned: PlannedScenario, n_cases: int) -> Floats:
+        sample_s, sites = self.plan.campaign.sample_s, self.loop.bus.names
         events = []
         for fault in planned.faults if has_events(planned) else ():
-            firsts = first_samples(fault, sites, sample_s)
-            last = NEVER if fault.end_s is None else float(round(fault.end_s / sample_s)) - 1.0
-            events.append(EventTimes(min(firsts), last, tuple(float(site in fault.sites) for site in sites)))
+            first = min(first_samples(fault, sites, sample_s))
+            own = np.array([[float(site in fault.sites)] for site in sites])
+            events.append(EventTimes(first=first, last=last_sample(fault, sample_s), own=own))
         return self.scoring.rows(
             k0=NEVER if planned.k0 is None else float(planned.k0),
             n_faulty=planned.n_faulty,
             last=float(planned.n_samples - 1),
             events=events,
-            n_cases=len(run),
+            n_cases=n_cases,
         )
 
 
 def loop_of(planned: Plan) -> Loop:
     """Closed loop of a campaign's benchmark with its options."""
     campaign = planned.campaign
-    return planned.benchmark.loop(
+    return campaign.bench.loop(
         Options(
-            plant=campaign.plant,
-            voter=campaign.voter,
-            sensors=campaign.sensors,
-            wind=campaign.wind,
+            chosen=campaign.chosen,
             sample_s=campaign.sample_s,
             substeps=campaign.substeps,
-            fault_slots=max([1, *(len(scenario.faults) for scenario in planned.scenarios)]),
+            faults=tuple(scenario.faults for scenario in planned.scenarios),
         )
     )
 
@@ -198,9 +218,10 @@ def assemble(campaign: Campaign) -> Assembly:
     planned = plan(campaign)
     loop = loop_of(planned)
     n_events = max((len(s.faults) for s in planned.scenarios if has_events(s)), default=0)
+    found = build_detectors(campaign.designs, loop.bus)
     return Assembly(
         plan=planned,
         loop=loop,
-        detectors=build_detectors(campaign, loop.bus),
+        detectors={name: Adapted(detector, loop.bus) for name, detector in found.items()},
         scoring=Scoring(len(loop.bus.sites), n_events),
     )

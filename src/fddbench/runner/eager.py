@@ -2,15 +2,16 @@
 
 from collections.abc import Mapping, Sequence
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 
-from fddbench.blocks.linear import total
-from fddbench.errors import DesignError, reason_of
-from fddbench.interfaces import Floats, Verdict
+from fddbench.blocks.layout import Nothing
+from fddbench.errors import reason_of
+from fddbench.interfaces import Floats
 from fddbench.metrics.scoring import NEVER
 from fddbench.runner.assembly import Assembly, Batch
-from fddbench.runner.fused import checked
+from fddbench.runner.fused import shown
 
 __all__ = ["DetectorFlight", "fly_eagerly"]
 
@@ -43,11 +44,13 @@ class DetectorFlight:
         self, assembly: Assembly, name: str, batch: Batch, recorded: Sequence[str] = (), *, alone: bool = True
     ) -> None:
         self.assembly, self.name, self.batch, self.alone = assembly, name, batch, alone
-        self.score = assembly.scoring.start(len(batch.cases))
+        self.detector, scoring, n_cases = assembly.detectors[name], assembly.scoring, len(batch.cases)
+        self.constants = scoring.constants.unpack(batch.score_constants)
+        self.score = scoring.states.spread(scoring.start(self.constants), n_cases)
         self.raised = ""
         self.kept: dict[str, list[Floats]] = {full: [] for full in recorded if full.startswith(f"{name}:")}
         try:
-            self.state = assembly.detectors[name].start(len(batch.cases))
+            self.state = self.detector.states.spread(self.detector.start(Nothing()), n_cases)
         except (Exception, SystemExit) as error:  # a user's detector may raise anything; it becomes a row
             self.raised = reason_of(error)
 
@@ -57,26 +60,30 @@ class DetectorFlight:
             return
         n_cases = len(self.batch.cases)
         try:
-            detector = self.assembly.detectors[self.name]
-            after, verdict = detector.step(self.state, SimpleNamespace(**vars(measured)))
-            if np.shape(after) != (detector.states.size, n_cases):
-                raise DesignError(f"a step gives a state of {(detector.states.size, n_cases)}, got {np.shape(after)}")
-            checked(verdict, detector, len(self.assembly.loop.bus.sites), n_cases)
-            self.score = self.assembly.scoring.step(
-                self.score, verdict, self.batch.score_constants, sample, sample < departed
+            after, verdict = self.detector.step(self.state, Nothing(), self._drawn(int(sample)), measured)
+            self.detector.states.check(after, n_cases)
+            self.score, number = self.assembly.scoring.step(
+                self.score, self.constants, Nothing(), verdict, sample, sample < departed
             )
             self.state = after
+            seen = shown(verdict, number) if self.kept else {}
             for full, rows in self.kept.items():
-                shown = np.asarray(_shown(verdict, full.split(":", 1)[1]), dtype=float)
-                rows.append(np.broadcast_to(shown, (n_cases,)))
+                rows.append(np.broadcast_to(np.asarray(seen[full.split(":", 1)[1]], dtype=float), (n_cases,)))
         except (Exception, SystemExit) as error:  # a user's detector may raise anything; it becomes a row
             self.raised = reason_of(error)
+
+    def _drawn(self, sample: int) -> Any:
+        """Random numbers of the detector at a sample, by name."""
+        draws = self.detector.draws
+        if not draws.streams:
+            return Nothing()
+        return draws.unpack(self.assembly.normals(draws, self.batch, sample, 1)[0])
 
     def finish(self) -> tuple[Floats, list[str]]:
         """Final score, (n_score, n_cases), and what was raised for each case ("": nothing)."""
         n_cases = len(self.batch.cases)
         if not self.raised or (n_cases == 1 and self.alone):
-            return self.score, [self.raised] * n_cases
+            return self.assembly.scoring.states.pack(self.score, n_cases), [self.raised] * n_cases
         # halves, so that the sound cases of a large batch still fly side by side
         halves = [half for half in np.array_split(np.arange(n_cases), 2) if len(half)]
         parts = [_fly(self.assembly, self.batch.take(half), [self.name], ())[2][0].finish() for half in halves]
@@ -90,15 +97,6 @@ class DetectorFlight:
             if rows:
                 found[full][: len(rows), 0] = rows
         return found
-
-
-def _shown(verdict: Verdict, signal: str) -> Floats:
-    """A signal of a verdict by name."""
-    if signal == "n_declared":
-        number: Floats = total(verdict.declared * 1.0)
-        return number
-    shown: Floats = verdict.ratio if signal == "ratio" else verdict.signals[signal]
-    return shown
 
 
 def fly_eagerly(
@@ -121,7 +119,8 @@ def _fly(
     assembly: Assembly, batch: Batch, names: Sequence[str], recorded: Sequence[str]
 ) -> tuple[Floats, dict[str, Floats], list[DetectorFlight]]:
     """Departures, recordings of the loop, and the flights of the named detectors."""
-    loop, state = assembly.loop, batch.state
+    loop = assembly.loop
+    state, constants = loop.states.unpack(batch.state), loop.constants.unpack(batch.constants)
     departed = np.full(len(batch.cases), NEVER)
     flights = [DetectorFlight(assembly, name, batch, recorded) for name in names]
     kept: dict[str, list[Floats]] = {
@@ -130,14 +129,14 @@ def _fly(
     last = int(assembly.scoring.constants.unpack(batch.score_constants).last.max())
     with np.errstate(all="ignore"):
         for first in range(0, last + 1, _TILE):
-            for j, drawn in enumerate(assembly.normals(batch, first, min(_TILE, last + 1 - first))):
+            for j, drawn in enumerate(assembly.normals(loop.draws, batch, first, min(_TILE, last + 1 - first))):
                 sample = float(first + j)
-                state, measured, truth, gone = loop.step(state, batch.constants, drawn, sample)
-                departed = np.where(gone, np.minimum(departed, sample), departed)
-                _protect(measured)
+                state, seen = loop.step(state, constants, loop.draws.unpack(drawn), np.float64(sample))
+                departed = np.where(seen.departed, np.minimum(departed, sample), departed)
+                _protect(seen.measured)
                 for flight in flights:
-                    flight.step(measured, sample, departed)
-                _keep(kept, measured, truth, departed)
+                    flight.step(seen.measured, sample, departed)
+                _keep(kept, seen.measured, seen.truth, departed)
                 if flights and not recorded and all(flight.raised for flight in flights):
                     return departed, {}, flights
     return departed, {full: np.array(rows) for full, rows in kept.items()}, flights

@@ -69,19 +69,13 @@ class Flyer:
     @cached_property
     def fused(self) -> Fused:
         """Step of everything that can be compiled."""
-        return Fused(self.assembly, tuple(name for name in self.assembly.detectors if name not in self.opaque))
+        return Fused.of(self.assembly, tuple(name for name in self.assembly.detectors if name not in self.opaque))
 
     @lru_cache(maxsize=4)  # noqa: B019  (a flyer lives as long as its process)
     def kernel(self, recorded: tuple[str, ...]) -> kernel.Kernel:
         """Kernel that stores these outputs."""
-        loop = self.assembly.loop
-        return kernel.build(
-            self.fused.program(),
-            consumers=loop.consumers,
-            fault_consumers=loop.fault_consumers,
-            recorded=recorded,
-            backend="llvm",
-        )
+        streams = self.fused.draws.streams
+        return kernel.build(self.fused.program(), streams=streams, recorded=recorded, backend="llvm")
 
     def prepare(self) -> None:
         """Compile what flying without a recording needs, so that threads find it done."""
@@ -103,7 +97,7 @@ class Flyer:
 
     def _fly_compiled(self, batch: Batch, recorded: tuple[str, ...]) -> Outcome:
         assembly, fused = self.assembly, self.fused
-        state, constants = fused.start(batch)
+        state, constants = fused.packed(batch)
         samples = assembly.scoring.constants.unpack(batch.score_constants).last.astype(np.int64) + 1
         addresses = kernel.Addresses(
             key=assembly.plan.campaign.seed, run=batch.run, flight=assembly.plan.stream, scenario=batch.scenario_stream
@@ -123,7 +117,7 @@ class Flyer:
         x = fused.states.unpack(state)
         outcome = Outcome(
             batch=batch,
-            scores={name: getattr(x, f"score_{i}") for i, name in enumerate(fused.detectors)},
+            scores={name: assembly.scoring.states.pack(x.scores[i]) for i, name in enumerate(fused.detectors)},
             departed=x.departed,
             recorded={name: np.concatenate(parts) for name, parts in kept.items()},
         )

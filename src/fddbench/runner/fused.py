@@ -6,41 +6,26 @@ from typing import Any
 
 import numpy as np
 
-from fddbench.blocks.layout import Layout, Rows
-from fddbench.blocks.linear import total
+from fddbench.blocks.block import Part
+from fddbench.blocks.drawn import Draws
+from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, record
 from fddbench.blocks.program import Program, trace
+from fddbench.designs.adapted import Adapted
 from fddbench.errors import DesignError, FddbenchError, reason_of
-from fddbench.interfaces import Bus, Detector, Floats, Verdict
-from fddbench.metrics.scoring import NEVER
+from fddbench.interfaces import Bus, Floats, Loop, Sample, Verdict
+from fddbench.metrics.scoring import NEVER, ScoreConstants, ScoreState, Scoring
 from fddbench.runner.assembly import Assembly, Batch
 
-__all__ = ["Fused", "checked", "detector_program", "why_opaque"]
+__all__ = ["Fused", "detector_program", "shown", "why_opaque"]
 
 
-def checked(verdict: Verdict, detector: Detector, n_sites: int, n_cases: int) -> Verdict:
-    """The verdict itself, once its shapes and signals are right; nothing a detector returns is repaired.
-
-    Raises
-    ------
-    DesignError
-        The detector does not declare one row per site, its ratio is not one row, or it shows other signals than it
-        announced.
-    """
-    shapes = tuple(np.shape(verdict.declared)), tuple(np.shape(verdict.ratio))
-    if shapes != ((n_sites, n_cases), (n_cases,)):
-        raise DesignError(
-            f"a verdict needs declared of shape {(n_sites, n_cases)} and ratio of shape {(n_cases,)}, "
-            f"got {shapes[0]} and {shapes[1]}"
-        )
-    if set(verdict.signals) != set(detector.recorded):
-        raise DesignError(
-            f"recorded announces {sorted(detector.recorded)}, the verdict shows {sorted(verdict.signals)}; make them equal"
-        )
-    return verdict
+def shown(verdict: Verdict, number: Row) -> dict[str, Row]:
+    """All there is to record of a verdict: number of declared sites, alarm, residual, and what the detector shows."""
+    return {"n_declared": number, "alarm": verdict.alarm, "residual": verdict.residual, **verdict.signals}
 
 
-def detector_program(detector: Detector, bus: Bus) -> Program:
-    """One step of a detector alone as a program with the inputs ``state`` and the signals of the bus.
+def detector_program(detector: Adapted, bus: Bus) -> Program:
+    """One step of a detector alone as a program with the inputs ``state``, ``normals`` and the signals of the bus.
 
     Raises
     ------
@@ -48,23 +33,19 @@ def detector_program(detector: Detector, bus: Bus) -> Program:
         Whatever its step raises on traced values.
     """
 
-    def step(state: Rows, **signals: Rows) -> Mapping[str, Rows]:
+    def step(state: Rows, normals: Rows, **signals: Rows) -> Mapping[str, Rows]:
         before = {name: value.ids.copy() for name, value in signals.items()}
-        after, verdict = detector.step(state, SimpleNamespace(**signals))
+        x, n = detector.states.unpack(state), detector.draws.unpack(normals)
+        after, verdict = detector.step(x, Nothing(), n, SimpleNamespace(**signals))
         if any((signals[name].ids != ids).any() for name, ids in before.items()):
             raise DesignError("its step writes into measured signals, which are everybody's; copy them first")
-        checked(verdict, detector, len(bus.sites), 1)
-        return {"state": after, "declared": verdict.declared, "ratio": verdict.ratio, **verdict.signals}
+        rows = {"declared": verdict.declared, "alarm": verdict.alarm, "residual": verdict.residual}
+        return {"state": detector.states.pack(after), **rows, **verdict.signals}
 
-    program = trace(step, state=detector.states.size, **bus.signals)
-    if len(program.outputs["state"]) != detector.states.size:
-        raise DesignError(
-            f"the step gives {len(program.outputs['state'])} state rows, states has {detector.states.size}"
-        )
-    return program
+    return trace(step, state=detector.states.size, normals=detector.draws.size, **bus.signals)
 
 
-def why_opaque(detector: Detector, bus: Bus) -> str:
+def why_opaque(detector: Adapted, bus: Bus) -> str:
     """Why a detector cannot be traced, in one line; "" when it can.
 
     A step that keeps something between two calls gives two different programs, and is opaque for that.
@@ -79,60 +60,129 @@ def why_opaque(detector: Detector, bus: Bus) -> str:
     return ""
 
 
+@record
+class FusedState:
+    """States of the loop, of every detector and of its score; sample at which the flight departed, `NEVER` if it did not."""
+
+    loop: Part
+    departed: Row
+    detectors: tuple[Part, ...]
+    scores: tuple[ScoreState, ...]
+
+
+@record
+class FusedConstants:
+    """Constants of the loop, and of the scoring, which is the same for all detectors."""
+
+    loop: Part
+    score: ScoreConstants
+
+
+@record
+class FusedDraws:
+    """Random numbers of the loop, and of the detectors that draw any."""
+
+    loop: Part
+    detectors: tuple[Part, ...]
+
+
+@record
+class Flown:
+    """What there is to see of a sample: the loop's, every verdict, and how many sites each declares."""
+
+    sample: Sample
+    departed: Row
+    verdicts: tuple[Verdict, ...]
+    numbers: tuple[Row, ...]
+
+
 class Fused:
-    """Loop, traced detectors and scores as one step with one state.
+    """Loop, detectors and scores as one block, fed with the number of the sample.
 
     Parameters
     ----------
-    assembly : Assembly
+    loop : Loop
         What flies.
-    detectors : sequence of str
-        Names of those to fuse.
+    detectors : mapping of str to Adapted
+        Those to fuse, by the names of their designs.
+    scoring : Scoring
+        Score of one detector.
     """
 
-    def __init__(self, assembly: Assembly, detectors: tuple[str, ...]) -> None:
-        self.assembly, self.detectors = assembly, detectors
-        loop, scoring = assembly.loop, assembly.scoring
-        parts: dict[str, int] = {"loop": loop.states.size, "departed": 0}
-        for i, name in enumerate(detectors):
-            parts |= {f"detector_{i}": assembly.detectors[name].states.size, f"score_{i}": scoring.states.size}
-        self.states = Layout(**{name: rows for name, rows in parts.items() if rows or name == "departed"})
-        self.constants = Layout(loop=loop.constants.size, score=scoring.constants.size)
-        self.n_normals = 4 * (len(loop.consumers) + len(loop.fault_consumers))
+    def __init__(self, loop: Loop, detectors: Mapping[str, Adapted], scoring: Scoring) -> None:
+        self.loop, self.detectors, self.scoring = loop, dict(detectors), scoring
+        own = tuple(self.detectors.values())
+        self.states = Layout(
+            FusedState(
+                loop=loop.states.shape,
+                departed=ROW,
+                detectors=tuple(detector.states.shape for detector in own),
+                scores=tuple(scoring.states.shape for _ in own),
+            )
+        )
+        self.constants = Layout(FusedConstants(loop=loop.constants.shape, score=scoring.constants.shape))
+        drawn = tuple(detector.draws.names for detector in own)
+        self.draws: Draws[FusedDraws] = Draws(FusedDraws(loop=loop.draws.names, detectors=drawn))
 
-    def start(self, batch: Batch) -> tuple[Floats, Floats]:
-        """State before sample 0 and constants of a batch."""
+    @classmethod
+    def of(cls, assembly: Assembly, detectors: tuple[str, ...]) -> "Fused":
+        """Everything of an assembly, with some of its detectors."""
+        return cls(assembly.loop, {name: assembly.detectors[name] for name in detectors}, assembly.scoring)
+
+    def packed(self, batch: Batch) -> tuple[Floats, Floats]:
+        """State before sample 0 and constants of a batch, (n_rows, n_cases) each."""
         n_cases = len(batch.cases)
-        values: dict[str, Floats] = {"loop": batch.state, "departed": np.full(n_cases, NEVER)}
-        for i, name in enumerate(self.detectors):
-            values[f"detector_{i}"] = self.assembly.detectors[name].start(n_cases)
-            values[f"score_{i}"] = self.assembly.scoring.start(n_cases)
-        kept = {name: values[name] for name in self.states.fields}
-        return self.states.pack(**kept), self.constants.pack(loop=batch.constants, score=batch.score_constants)
+        c = FusedConstants(
+            loop=self.loop.constants.unpack(batch.constants), score=self.scoring.constants.unpack(batch.score_constants)
+        )
+        begun = self.states.spread(self.start(c), n_cases)
+        state = self.states.pack(begun, n_cases)
+        # the loop has begun already, with the batch
+        state[: self.loop.states.size] = batch.state
+        return state, self.constants.pack(c, n_cases)
+
+    def start(self, c: FusedConstants) -> FusedState:
+        """Nothing flown, nothing declared, nothing scored."""
+        return FusedState(
+            loop=self.loop.start(c.loop),
+            departed=NEVER,
+            detectors=tuple(detector.start(Nothing()) for detector in self.detectors.values()),
+            scores=tuple(self.scoring.start(c.score) for _ in self.detectors),
+        )
+
+    def step(self, x: FusedState, c: FusedConstants, n: FusedDraws, sample: Row) -> tuple[FusedState, Flown]:
+        """One sample of everything."""
+        loop, seen = self.loop.step(x.loop, c.loop, n.loop, sample)
+        departed = np.where(seen.departed, np.minimum(x.departed, sample), x.departed)
+        kept, scores, verdicts, numbers = [], [], [], []
+        parts = zip(self.detectors.values(), x.detectors, n.detectors, x.scores, strict=True)
+        for detector, state, numbers_drawn, score in parts:
+            after, verdict = detector.step(state, Nothing(), numbers_drawn, seen.measured)
+            scored, number = self.scoring.step(score, c.score, Nothing(), verdict, sample, sample < departed)
+            kept.append(after)
+            scores.append(scored)
+            verdicts.append(verdict)
+            numbers.append(number)
+        flown = Flown(sample=seen, departed=departed, verdicts=tuple(verdicts), numbers=tuple(numbers))
+        return FusedState(loop=loop, departed=departed, detectors=tuple(kept), scores=tuple(scores)), flown
 
     def program(self) -> Program:
-        """Traced step, with all there is to record as outputs."""
-        return trace(self.step, state=self.states.size, constants=self.constants.size, normals=self.n_normals, sample=0)
+        """Traced step; outputs ``state``, ``finished``, ``departed`` and by their names all signals there are."""
 
-    def step(self, state: Rows, constants: Rows, normals: Rows, sample: Any) -> Mapping[str, Rows]:
-        """One sample of everything; outputs ``state``, ``finished``, ``departed`` and by their names all signals."""
-        x, c = self.states.unpack(state), self.constants.unpack(constants)
-        after, measured, truth, gone = self.assembly.loop.step(x.loop, c.loop, normals, sample)
-        departed = np.where(gone, np.minimum(x.departed, sample), x.departed)
-        values: dict[str, Rows] = {"loop": after, "departed": departed}
-        outputs: dict[str, Rows] = {
-            f"measured:{name}": getattr(measured, name) for name in self.assembly.loop.bus.signals
-        }
-        outputs |= {f"truth:{name}": value for name, value in truth.items()}
-        for i, name in enumerate(self.detectors):
-            detector_state = getattr(x, f"detector_{i}", state[:0])
-            stepped, verdict = self.assembly.detectors[name].step(detector_state, SimpleNamespace(**vars(measured)))
-            values[f"detector_{i}"] = stepped
-            values[f"score_{i}"] = self.assembly.scoring.step(
-                getattr(x, f"score_{i}"), verdict, c.score, sample, sample < departed
-            )
-            outputs |= {f"{name}:n_declared": total(verdict.declared * 1.0), f"{name}:ratio": verdict.ratio}
-            outputs |= {f"{name}:{signal}": value for signal, value in verdict.signals.items()}
-        kept = {name: values[name] for name in self.states.fields}
-        finished = departed < NEVER
-        return {"state": self.states.pack(**kept), "finished": finished, "departed": departed, **outputs}
+        def step(state: Rows, constants: Rows, normals: Rows, sample: Any) -> Mapping[str, Rows]:
+            x, c, n = self.states.unpack(state), self.constants.unpack(constants), self.draws.unpack(normals)
+            after, flown = self.step(x, c, n, sample)
+            rows = {"state": self.states.pack(after), "finished": flown.departed < NEVER, "departed": flown.departed}
+            return rows | self._signals(flown)
+
+        sizes = {"state": self.states.size, "constants": self.constants.size, "normals": self.draws.size}
+        return trace(step, **sizes, sample=0)
+
+    def _signals(self, flown: Flown) -> dict[str, Rows]:
+        """Everything that may be recorded, by name."""
+        bus, seen = self.loop.bus, flown.sample
+        found: dict[str, Rows] = {f"measured:{name}": getattr(seen.measured, name) for name in bus.signals}
+        found |= {f"truth:{name}": value for name, value in seen.truth.items()}
+        for name, verdict, number in zip(self.detectors, flown.verdicts, flown.numbers, strict=True):
+            found |= {f"{name}:{signal}": rows for signal, rows in shown(verdict, number).items()}
+        return found

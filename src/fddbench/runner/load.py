@@ -10,9 +10,10 @@ import numpy as np
 
 from fddbench.blocks import kernel, llvm
 from fddbench.blocks.accounting import Cost, cost
-from fddbench.blocks.layout import Layout, Rows
+from fddbench.blocks.layout import Nothing, Rows
 from fddbench.blocks.program import trace
-from fddbench.interfaces import Bus, Detector
+from fddbench.designs.adapted import Adapted
+from fddbench.interfaces import Bus
 from fddbench.runner.fused import detector_program, why_opaque
 
 __all__ = ["DetectorLoad", "detector_load", "in_words"]
@@ -39,42 +40,44 @@ class DetectorLoad:
     opaque: str = ""
 
 
-def detector_load(detector: Detector, bus: Bus, *, timed: bool = True) -> DetectorLoad:
+def detector_load(detector: Adapted, bus: Bus, *, timed: bool = True) -> DetectorLoad:
     """Count the operations of one step, and time it unless told not to."""
     reason = why_opaque(detector, bus)
     if reason:
         return DetectorLoad(cost=None, nanoseconds=None, opaque=reason)
     nanoseconds = _nanoseconds(detector, bus) if timed and llvm.available() else None
-    program = detector_program(detector, bus).keep("state", "declared", "ratio")
+    program = detector_program(detector, bus).keep("state", "declared", "alarm", "residual")
     return DetectorLoad(cost=cost(program), nanoseconds=nanoseconds)
 
 
-def _nanoseconds(detector: Detector, bus: Bus) -> float:
+def _nanoseconds(detector: Adapted, bus: Bus) -> float:
     """Time of one step of one flight [ns], on signals that change with every sample and case."""
-    signals = Layout(**bus.signals)
+    places, size = {}, 0
+    for name, rows in bus.signals.items():
+        places[name], size = slice(size, size + rows) if rows else size, size + (rows or 1)
 
     def step(state: Rows, constants: Rows, normals: Rows, sample: Any) -> Mapping[str, Rows]:
-        del normals
         moving = constants + 1e-3 * sample
-        after, verdict = detector.step(state, SimpleNamespace(**vars(signals.unpack(moving))))
+        measured = SimpleNamespace(**{name: moving[place] for name, place in places.items()})
+        x, n = detector.states.unpack(state[: detector.states.size]), detector.draws.unpack(normals)
+        after, verdict = detector.step(x, Nothing(), n, measured)
         # the verdict must be part of the state, or it would not be computed
-        return {"state": np.concatenate([after, verdict.declared, verdict.ratio[np.newaxis]])}
+        decided = [verdict.declared, verdict.alarm[np.newaxis], verdict.residual[np.newaxis]]
+        return {"state": np.concatenate([detector.states.pack(after), *decided])}
 
-    extra = len(bus.sites) + 1
-    program = trace(
-        lambda state, **rest: step(state[: detector.states.size], **rest),
-        state=detector.states.size + extra, constants=signals.size, normals=0, sample=0,
-    )  # fmt: skip
-    compiled = kernel.build(program, backend="llvm")
-    state = np.concatenate([detector.start(_CASES), np.zeros((extra, _CASES))])
-    constants = 0.01 * np.arange(1.0, signals.size + 1.0)[:, np.newaxis] + 1e-4 * np.arange(_CASES)
+    extra = len(bus.sites) + 2
+    program = trace(step, state=detector.states.size + extra, constants=size, normals=detector.draws.size, sample=0)
+    compiled = kernel.build(program, streams=detector.draws.streams, backend="llvm")
+    begun = detector.states.spread(detector.start(Nothing()), _CASES)
+    state = np.concatenate([detector.states.pack(begun, _CASES), np.zeros((extra, _CASES))])
+    constants = 0.01 * np.arange(1.0, size + 1.0)[:, np.newaxis] + 1e-4 * np.arange(_CASES)
     samples = np.full(_CASES, _SAMPLES, dtype=np.int64)
     addresses = kernel.Addresses(key=0, run=0, flight=0, scenario=0)
     best = np.inf
     for _ in range(_REPEATS):
-        begun = time.perf_counter()
+        clock_s = time.perf_counter()
         compiled.fly(state, constants, samples, addresses, first=0, end=_SAMPLES)
-        best = min(best, time.perf_counter() - begun)
+        best = min(best, time.perf_counter() - clock_s)
     return best / (_CASES * _SAMPLES) * 1e9
 
 

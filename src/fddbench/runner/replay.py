@@ -84,7 +84,7 @@ def _record(
         last = min(last, planned.k0 + round(seconds / sample_s))
     sources = {**dict.fromkeys(assembly.loop.bus.signals, "measured"), **dict.fromkeys(assembly.loop.truth, "truth")}
     kept = [f"{source}:{name}" for name, source in sources.items() if signals is None or name in signals]
-    shown = {name: ("n_declared", "ratio", *detector.recorded) for name, detector in assembly.detectors.items()}
+    shown = {name: ("n_declared", "residual", *detector.recorded) for name, detector in assembly.detectors.items()}
     kept += [f"{detector}:{name}" for detector, names in shown.items() for name in names]
     found = flyer.fly(_shortened(assembly, batch, last), kept).recorded
     return Recording(

@@ -89,7 +89,7 @@ def rows_and_events(flyer: Flyer, cases: Cases) -> tuple[pa.Table, pa.Table]:
     able = np.array([reason == "" for reason in batch.infeasible_reason], dtype=bool)
     flown, grounded = batch.take(np.flatnonzero(able)), batch.take(np.flatnonzero(~able))
     outcome = flyer.fly(flown) if able.any() else None
-    schema = rows_schema([parameter.name for parameter in assembly.plan.benchmark.parameters])
+    schema = rows_schema([parameter.name for parameter in assembly.plan.plant.parameters])
     parts: list[pa.Table] = []
     events = [EVENTS.empty_table()]
     rank: list[Cases] = []
@@ -108,7 +108,7 @@ def rows_and_events(flyer: Flyer, cases: Cases) -> tuple[pa.Table, pa.Table]:
 def _columns(assembly: Assembly, batch: Batch, outcome: Outcome | None, detector: str) -> Columns:
     """Rows of one detector by columns; without an outcome the flights are infeasible and nobody is scored."""
     n_cases = len(batch.cases)
-    score = assembly.scoring.start(n_cases) if outcome is None else outcome.scores[detector]
+    score = assembly.nothing_scored(batch) if outcome is None else outcome.scores[detector]
     departed = np.full(n_cases, NEVER) if outcome is None else outcome.departed
     errors = (outcome.errors.get(detector) if outcome else None) or [""] * n_cases
     status, reason = statuses(
@@ -124,7 +124,7 @@ def _columns(assembly: Assembly, batch: Batch, outcome: Outcome | None, detector
         score,
         batch.score_constants,
         truth=_truth(assembly, batch),
-        sites=assembly.loop.bus.sites,
+        sites=assembly.loop.bus.names,
         status=status,
         departed=departed,
         sample_s=assembly.loop.bus.sample_s,
@@ -166,7 +166,7 @@ def _events(
         cases = np.flatnonzero(batch.scenario == position)
         shared = {name: columns[name].take(pa.array(cases)) for name in _SHARED}
         ok, end = np.zeros(len(cases), dtype=bool), np.full(len(cases), planned.n_samples - 1.0)
-        score = assembly.scoring.start(len(batch.cases))
+        score = assembly.nothing_scored(batch)
         if outcome is not None:
             score, end = outcome.scores[detector], np.minimum(end, outcome.departed[cases] - 1.0)
             ok = np.array([status == "ok" for status in shared["status"].to_pylist()], dtype=bool)

@@ -1,23 +1,29 @@
 """Mean of the two sensors that agree best."""
 
+from itertools import combinations
+
 import numpy as np
 
-from fddbench.blocks.layout import Rows
+from fddbench.blocks.layout import Row, Rows
 
 __all__ = ["ClosestTwo"]
 
 
 class ClosestTwo:
-    """Mean of the closest pair of three sensors; of equally close pairs the first in the order 12, 13, 23."""
+    """Mean of the closest pair of sensors; of equally close pairs the first in the order 12, 13, …, 23, …."""
 
-    def vote(self, sensors: Rows) -> Rows:
-        """Voted signal, (n_cases,), of (3, n_cases) sensors.
+    about = "mean of the two sensors that agree best"
+
+    def vote(self, sensors: Rows) -> Row:
+        """Voted signal, (n_cases,), of (n_sensors, n_cases) sensors, at least two.
 
         >>> ClosestTwo().vote(np.array([[1.0], [9.0], [2.0]]))
         array([1.5])
         """
-        a, b, c = sensors
-        ab, ac, bc = np.abs(a - b), np.abs(a - c), np.abs(b - c)
-        first_two = (ab <= ac) & (ab <= bc)
-        outer = ac <= bc
-        return np.where(first_two, 0.5 * (a + b), np.where(outer, 0.5 * (a + c), 0.5 * (b + c)))
+        pairs = list(combinations(list(sensors), 2))
+        apart, voted = np.abs(pairs[0][0] - pairs[0][1]), 0.5 * (pairs[0][0] + pairs[0][1])
+        for a, b in pairs[1:]:
+            closer = np.abs(a - b) < apart
+            voted = np.where(closer, 0.5 * (a + b), voted)
+            apart = np.where(closer, np.abs(a - b), apart)
+        return voted

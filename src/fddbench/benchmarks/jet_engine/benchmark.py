@@ -7,12 +7,12 @@ from fddbench.benchmarks.jet_engine.manoeuvres import DURATIONS_S
 from fddbench.benchmarks.jet_engine.plant import MATRICES
 from fddbench.benchmarks.jet_engine.uncertainty import SETS
 from fddbench.errors import FddbenchError
-from fddbench.interfaces import FaultUnits, Floats, Options, Parameter
+from fddbench.interfaces import Choice, Floats, Options, Parameter, SinglePlant, Site
 
 __all__ = ["JetEngine"]
 
 
-class JetEngine:
+class JetEngine(SinglePlant):
     """Linear jet engine with an uncertain Δ of norm one, three disturbances and three additive faults.
 
     Section 5 of the robust H∞ paper. The input histories and the detection time limit of 5 s are ours; disturbances
@@ -21,27 +21,20 @@ class JetEngine:
 
     name = "jet_engine"
     about = "linear jet engine with uncertain dynamics, three disturbances and three additive faults"
-    sites: tuple[str, ...] = ("f1", "f2", "f3")
+    choices: Mapping[str, Choice] = {"plant": Choice(about="which engines: the set of Δ", options=SETS)}
+    sites = tuple(
+        Site(name=f"f{row + 1}", kind="component", signal="f", row=row, unit_name="", admissible=1.0, limits_s=(5.0,))
+        for row in range(3)
+    )
     parameters: tuple[Parameter, ...] = (
         Parameter(name="delta_scale_ratio", about="share of the drawn Δ; 0 is nominal", default=1.0, low=0.0, high=1.0),
         Parameter(name="input_scale_ratio", about="share of the inputs u", default=1.0, low=0.0, high=10.0),
         Parameter(name="disturbance_scale_ratio", about="share of the disturbances", default=1.0, low=0.0, high=10.0),
     )
-    refused_parameters: Mapping[str, str] = {}
-    plants: tuple[str, ...] = tuple(SETS)
-    voters: tuple[str, ...] = ()
-    sensors: tuple[str, ...] = ()
-    winds: tuple[str, ...] = ()
     manoeuvres: Mapping[str, float] = DURATIONS_S
-    fault_units = FaultUnits(unit="", admissible=1.0, sensor_range=float("inf"))
     shown: tuple[str, ...] = ("f_true_1", "f_true_2", "f_true_3")
     limits_from = "our choice: 5 s for each fault"
     matrices: Mapping[str, Floats] = MATRICES
-
-    def detection_time_limit_s(self, n_faulty: int) -> float:
-        """Requirement [s]: 5 for any number of faults."""
-        del n_faulty
-        return 5.0
 
     def loop(self, options: Options) -> JetEngineLoop:
         """Engine, faults and disturbances for these options."""
@@ -49,4 +42,4 @@ class JetEngine:
             raise FddbenchError(
                 f"the jet engine is stepped exactly for its discretisation: remove substeps = {options.substeps}"
             )
-        return JetEngineLoop(options, self.sites, self.fault_units)
+        return JetEngineLoop(options, self.sites)

@@ -5,12 +5,12 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from fddbench.blocks.layout import Layout, Rows
+from fddbench.blocks.layout import Layout, Rows, record
 from fddbench.blocks.linear import column, product
 from fddbench.blocks.tustin import identity, inverse, times, tustin
 from fddbench.interfaces import Floats
 
-__all__ = ["CONSTANTS", "DELTA_79", "MATRICES", "N", "closed", "constants", "step"]
+__all__ = ["CONSTANTS", "DELTA_79", "MATRICES", "EngineConstants", "N", "closed", "constants", "step"]
 
 _DATA = yaml.safe_load((Path(__file__).parent / "data" / "jet_engine.yaml").read_text(encoding="utf-8"))
 _NAMES = {"A": "Ao", "B": "Bo", "C": "Co", "D": "Do"}
@@ -27,8 +27,19 @@ MATRICES = {
 DELTA_79 = np.array(_DATA["Delta79"], dtype=float)
 """Δ of equation (79), (3, 3)."""
 
-CONSTANTS = Layout(A=N * N, B=N * 3 * N, C=N * N, D=N * 3 * N)
-"""Rows per flight: the discrete-time matrices from (f, d, u), row by row."""
+
+@record
+class EngineConstants:
+    """Discrete-time matrices from (f, d, u) of every flight, row by row."""
+
+    A: Rows
+    B: Rows
+    C: Rows
+    D: Rows
+
+
+CONSTANTS = Layout(EngineConstants(A=N * N, B=N * 3 * N, C=N * N, D=N * 3 * N))
+"""Rows per flight."""
 
 
 def closed(delta: Floats) -> tuple[Floats, Floats, Floats, Floats]:
@@ -42,16 +53,13 @@ def closed(delta: Floats) -> tuple[Floats, Floats, Floats, Floats]:
     return m["A"] + times(x, m["EA"]), inputs + times(x, seen), m["C"] + times(y, m["EA"]), outputs + times(y, seen)
 
 
-def constants(delta: Floats, sample_s: float) -> Floats:
-    """Rows of `CONSTANTS`, (n_constant, n_cases), of engines with these Δ, (3, 3, n_cases)."""
-    found = tustin(*closed(delta), sample_s=sample_s)
-    packed: Floats = CONSTANTS.pack(
-        **{name: matrix.reshape(-1, matrix.shape[2]) for name, matrix in zip("ABCD", found, strict=True)}
-    )
-    return packed
+def constants(delta: Floats, sample_s: float) -> EngineConstants:
+    """Constants of engines with these Δ, (3, 3, n_cases)."""
+    A, B, C, D = (m.reshape(-1, m.shape[2]) for m in tustin(*closed(delta), sample_s=sample_s))
+    return EngineConstants(A=A, B=B, C=C, D=D)
 
 
-def step(x: Rows, c: Rows, v: Rows) -> tuple[Rows, Rows]:
+def step(x: Rows, c: EngineConstants, v: Rows) -> tuple[Rows, Rows]:
     """State at the next sample and outputs at this one, (3, n_cases) each; v = (f, d, u) in nine rows."""
     A, B, C, D = (_matrix(rows, len(rows) // N) for rows in (c.A, c.B, c.C, c.D))
     return product(A, x) + product(B, v), product(C, x) + product(D, v)

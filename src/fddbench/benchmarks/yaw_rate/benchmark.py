@@ -1,13 +1,16 @@
-"""The yaw-rate benchmark as campaigns see it: choices, parameters, manoeuvres, requirements."""
+"""The yaw-rate benchmark as campaigns see it: what there is to choose."""
 
 from collections.abc import Mapping
+from typing import Any
 
 from fddbench.benchmarks.yaw_rate.loop import LateralLoop
-from fddbench.benchmarks.yaw_rate.manoeuvres import DURATIONS_S
-from fddbench.benchmarks.yaw_rate.parameters import PARAMETERS, REFUSED
+from fddbench.benchmarks.yaw_rate.plant import PLANT_NEEDS, YawRatePlant
+from fddbench.benchmarks.yaw_rate.plants.lateral_lpv import LateralLpvPlant
 from fddbench.benchmarks.yaw_rate.sensors import PRESETS
-from fddbench.flight.turbulence import WINDS_M_S
-from fddbench.interfaces import FaultUnits, Options, Parameter
+from fddbench.flight.turbulence import WINDS
+from fddbench.interfaces import Choice, Options
+from fddbench.voting.closest_two import ClosestTwo
+from fddbench.voting.median import Median
 
 __all__ = ["YawRate"]
 
@@ -22,22 +25,36 @@ class YawRate:
 
     name = "yaw_rate"
     about = "three yaw-rate sensors of a transport aircraft in closed loop"
-    sites: tuple[str, ...] = ("r1", "r2", "r3")
-    parameters: tuple[Parameter, ...] = PARAMETERS
-    refused_parameters: Mapping[str, str] = REFUSED
-    plants: tuple[str, ...] = ("lateral_lpv",)
-    voters: tuple[str, ...] = ("median", "closest_two")
-    sensors: tuple[str, ...] = tuple(PRESETS)
-    winds: tuple[str, ...] = tuple(WINDS_M_S)
-    manoeuvres: Mapping[str, float] = DURATIONS_S
-    fault_units = FaultUnits(unit="deg/s", admissible=40.0, sensor_range=128.0)
+    choices: Mapping[str, Choice] = {
+        "plant": Choice(
+            about="what flies", options={"lateral_lpv": LateralLpvPlant}, family="plant", needs=PLANT_NEEDS
+        ),
+        "voter": Choice(
+            about="how the sensors are voted",
+            options={"median": Median, "closest_two": ClosestTwo},
+            family="voter",
+            needs=("vote",),
+        ),
+        "sensors": Choice(
+            about="noise of the sensors",
+            options=PRESETS,
+            family="sensor",
+            needs=("r_deg_s", "beta_deg", "p_deg_s", "phi_deg"),
+        ),
+        "wind": Choice(
+            about="lateral gust", options=WINDS, family="wind", needs=("states", "draws", "before", "prepare", "step")
+        ),
+    }
     shown: tuple[str, ...] = ("r_deg_s", "r_voted_deg_s")
     limits_from = "inferred from the printed numbers"
 
-    def detection_time_limit_s(self, n_faulty: int) -> float:
-        """Requirement by number of faulty sensors [s]: 120 for one, 0.36 for two or more."""
-        return 120.0 if n_faulty <= 1 else 0.36
+    def plant(self, chosen: Mapping[str, Any]) -> YawRatePlant:
+        """The chosen plant."""
+        plant: YawRatePlant = chosen["plant"]
+        return plant
 
     def loop(self, options: Options) -> LateralLoop:
         """Closed loop for these options."""
-        return LateralLoop(options, self.sites, self.fault_units)
+        chosen = options.chosen
+        plant = chosen["plant"](options.sample_s, options.substeps)
+        return LateralLoop(plant, plant.sites, chosen["voter"](), chosen["sensors"], chosen["wind"], options)

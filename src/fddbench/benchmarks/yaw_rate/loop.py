@@ -1,36 +1,77 @@
-"""One sample of the closed loop: sense, break, vote, order, actuate, fly."""
+"""One sample of the closed loop: fly, sense, break, vote, order, actuate."""
 
-from collections.abc import Mapping, Sequence
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
-from fddbench import registry
-from fddbench.benchmarks.yaw_rate import lateral_lpv_plant as plant
-from fddbench.benchmarks.yaw_rate.control_law import LateralLaw
-from fddbench.benchmarks.yaw_rate.manoeuvres import KNOTS, bank_commands
-from fddbench.benchmarks.yaw_rate.sensors import PRESETS
-from fddbench.blocks import consumers
-from fddbench.blocks.functions import asin, interpolate
-from fddbench.blocks.layout import Layout, Rows
-from fddbench.faults.injection import FaultStep
-from fddbench.faults.specification import FaultSpecification
-from fddbench.flight import turbulence
-from fddbench.interfaces import Bus, FaultUnits, Flights, Floats, Options, Start
+from fddbench.benchmarks.yaw_rate.control_law import LateralLaw, LawState
+from fddbench.benchmarks.yaw_rate.plant import Motion, YawRatePlant
+from fddbench.benchmarks.yaw_rate.sensors import Noise, Readings, Sensors
+from fddbench.blocks.block import Part
+from fddbench.blocks.drawn import Draws
+from fddbench.blocks.layout import Layout, Nothing, Row, Rows, record
+from fddbench.faults.injection import SignalFaults, SignalFaultsState
+from fddbench.flight.actuators import ActuatorState
+from fddbench.flight.turbulence import Gust
+from fddbench.interfaces import Bus, Flights, Options, Prepared, Sample, Site, Voter
+from fddbench.voting.block import VoterBlock
 
 __all__ = ["LateralLoop"]
 
-_DEG = 180.0 / np.pi
-_DEPARTED_RAD = np.pi / 2.0
-"""Beyond this bank angle the lateral model means nothing and the flight has departed."""
+N_SURFACES = 13
+
+
+@record
+class LoopState:
+    """States of the parts."""
+
+    plant: Part
+    actuators: ActuatorState
+    law: LawState
+    gust: Part
+    voter: Part
+    rate_faults: SignalFaultsState
+    surface_faults: SignalFaultsState
+
+
+@record
+class LoopConstants:
+    """Constants of the parts that have any."""
+
+    plant: Part
+    gust: Part
+    rate_faults: Part
+    surface_faults: Part
+
+
+@record
+class LoopDraws:
+    """Random numbers of the parts that draw any."""
+
+    sensors: Part
+    plant: Part
+    gust: Part
+    rate_faults: Part
+    surface_faults: Part
 
 
 class LateralLoop:
     """Closed loop of the yaw-rate benchmark, see `fddbench.interfaces.Loop`.
 
-    The measured bus holds what a flight computer has: bank and sideslip angle, roll rate, three yaw rates and the voted
-    one, surface positions, airspeeds, mass, X_cg and altitude, all with their measurement errors.
+    The measured bus holds what a flight computer has: bank and sideslip angle, roll rate, the redundant yaw rates and the
+    voted one, surface positions, airspeeds, mass, X_cg and altitude, all with their measurement errors.
+
+    Parameters
+    ----------
+    plant : YawRatePlant
+        What flies.
+    sites : tuple of Site
+        Fault sites: one sensor a row of ``r_deg_s``, and any surfaces, rows of ``surface_deg``.
+    voter, noise, gust : Voter, Noise, Gust
+        What was chosen.
+    options : Options
+        Clock and faults.
     """
 
     truth = (
@@ -44,128 +85,134 @@ class LateralLoop:
         "bank_command_deg",
     )
 
-    def __init__(self, options: Options, sites: tuple[str, ...], units: FaultUnits) -> None:
-        self.sample_s, self.substeps = options.sample_s, options.substeps
-        self.noise = PRESETS[options.sensors]
-        self.voter = registry.load("voter", options.voter)()
-        self.units = units
-        self.faults = FaultStep(sites, options.fault_slots, options.sample_s)
-        self.law = LateralLaw(sample_s=options.sample_s)
-        self.actuators = plant.actuators(options.sample_s)
-        self.wind_m_s = turbulence.WINDS_M_S[options.wind]
-        self.windy = self.wind_m_s > 0.0
-        self.consumers = (consumers.SENSORS_A, consumers.SENSORS_B, *((consumers.GUST,) if self.windy else ()))
-        self.fault_consumers = tuple(consumers.FAULT_SLOT_0 + j for j in range(options.fault_slots))
-        self.start_consumers = (consumers.START,)
-        gust = {"gust": 2} if self.windy else {}
+    def __init__(
+        self, plant: YawRatePlant, sites: tuple[Site, ...], voter: Voter, noise: Noise, gust: Gust, options: Options
+    ) -> None:
+        self.plant, self.voter, self.gust, self.sample_s = plant, VoterBlock(voter), gust, options.sample_s
+        self.rate_faults = SignalFaults(sites, "r_deg_s", options.faults, options.sample_s)
+        self.surface_faults = SignalFaults(sites, "surface_deg", options.faults, options.sample_s)
+        self.sensors = Sensors(noise, len(self.rate_faults.sites))
+        self.law, self.actuators = LateralLaw(options.sample_s), plant.actuators()
         self.states = Layout(
-            aircraft=plant.STATES.size, surface_deg=13, integral_rad_s=0, faults=self.faults.states.size, **gust
-        )
-        self.constants = Layout(
-            **dict.fromkeys(plant.CONSTANTS.names, 0),
-            **({"gust": turbulence.GUST_CONSTANTS.size} if self.windy else {}),
-            knots_s=KNOTS,
-            bank_deg=KNOTS,
-            faults=self.faults.constants.size,
-        )
-        self.bus = Bus(
-            sample_s=options.sample_s,
-            sites=sites,
-            signals={
-                **dict.fromkeys(("phi_deg", "beta_deg", "p_deg_s", "r_voted_deg_s", "v_tas_m_s"), 0),
-                "r_deg_s": 3,
-                "surface_deg": 13,
-                **dict.fromkeys(("mass_kg", "x_cg_ratio", "altitude_ft", "v_cas_kt"), 0),
-            },
-        )
-
-    def fault_rows(self, faults: Sequence[FaultSpecification], phases: Floats) -> Floats:
-        """Data rows of the faults of a scenario, see `fddbench.interfaces.Loop.fault_rows`."""
-        return self.faults.rows(faults, self.units, phases)
-
-    def start(self, flights: Flights) -> Start:
-        """Wings level in trim: all lateral states are zero, the gust is stationary."""
-        constants, reasons = plant.prepare(flights.parameters)
-        n_cases = len(reasons)
-        knots_s, bank_deg = bank_commands(flights.manoeuvres, constants["v_tas_m_s"])
-        gust, gust_constants = {}, {}
-        if self.windy:
-            gust = {"gust": turbulence.gust_start(flights.normals)}
-            gust_constants = {
-                "gust": turbulence.gust_constants(
-                    sigma_m_s=self.wind_m_s * flights.parameters["gust_scale_ratio"],
-                    v_tas_m_s=constants["v_tas_m_s"],
-                    sample_s=self.sample_s,
-                )
-            }
-        return Start(
-            state=self.states.pack(
-                aircraft=plant.STATES.zeros(n_cases),
-                surface_deg=np.zeros((13, n_cases)),
-                integral_rad_s=np.zeros(n_cases),
-                faults=self.faults.states.zeros(n_cases),
-                **gust,
-            ),
-            constants=self.constants.pack(
-                **constants, **gust_constants, knots_s=knots_s, bank_deg=bank_deg, faults=flights.faults
-            ),
-            infeasible_reason=reasons,
-        )
-
-    def step(
-        self, state: Rows, constants: Rows, normals: Rows, sample: Any
-    ) -> tuple[Rows, SimpleNamespace, Mapping[str, Rows], Rows]:
-        """One sample, see `fddbench.interfaces.Loop.step`."""
-        x, c = self.states.unpack(state), self.constants.unpack(constants)
-        air = plant.STATES.unpack(x.aircraft)
-        gust = turbulence.gust_m_s(x.gust, c.gust) if self.windy else np.zeros_like(air.v_y_m_s)
-        beta_deg = _DEG * asin((air.v_y_m_s - gust) / c.v_tas_m_s)
-        measured, faults = self._measure(x, c, air, beta_deg, normals, sample)
-        command_deg = interpolate(sample * self.sample_s, c.knots_s, c.bank_deg)
-        integral, orders = self.law.step(x.integral_rad_s, measured, command_deg)
-        moved = self.actuators.step(x.surface_deg, orders, *plant.travel(c.rudder_travel_deg))
-        flown = plant.fly(x.aircraft, x.surface_deg, gust, c, self.sample_s, self.substeps)
-        windy = {"gust": turbulence.gust_step(x.gust, c.gust, normals[8:10])} if self.windy else {}
-        after = self.states.pack(aircraft=flown, surface_deg=moved, integral_rad_s=integral, faults=faults, **windy)
-        truth = dict(
-            zip(
-                self.truth,
-                (
-                    _DEG * air.phi_rad,
-                    beta_deg,
-                    _DEG * air.p_rad_s,
-                    _DEG * air.r_rad_s,
-                    _DEG * air.psi_rad,
-                    air.y_m,
-                    gust,
-                    command_deg,
-                ),
-                strict=True,
+            LoopState(
+                plant=plant.states.shape,
+                actuators=self.actuators.states.shape,
+                law=self.law.states.shape,
+                gust=gust.states.shape,
+                voter=self.voter.states.shape,
+                rate_faults=self.rate_faults.states.shape,
+                surface_faults=self.surface_faults.states.shape,
             )
         )
-        departed = ~(np.abs(air.phi_rad) <= _DEPARTED_RAD)
-        return after, measured, truth, departed
-
-    def _measure(
-        self, x: SimpleNamespace, c: SimpleNamespace, air: SimpleNamespace, beta_deg: Rows, normals: Rows, sample: Any
-    ) -> tuple[SimpleNamespace, Floats]:
-        """Measured bus at this sample, and the state of the fault step at the next."""
-        healthy = self.noise.r(_DEG * air.r_rad_s, normals)
-        first = 4 * len(self.consumers)
-        slots = [normals[first + 4 * j : first + 4 * j + 4] for j in range(self.faults.slots)]
-        r_deg_s, faults = self.faults.step(healthy, x.faults, c.faults, slots, sample)
-        beta, p, phi = self.noise.others(beta_deg, _DEG * air.p_rad_s, _DEG * air.phi_rad, normals)
-        measured = SimpleNamespace(
-            phi_deg=phi,
-            beta_deg=beta,
-            p_deg_s=p,
-            r_deg_s=r_deg_s,
-            r_voted_deg_s=self.voter.vote(r_deg_s),
-            surface_deg=x.surface_deg,
-            v_tas_m_s=c.v_tas_measured_m_s,
-            mass_kg=c.mass_measured_kg,
-            x_cg_ratio=c.x_cg_measured_ratio,
-            altitude_ft=c.altitude_measured_ft,
-            v_cas_kt=c.v_cas_measured_kt,
+        self.constants = Layout(
+            LoopConstants(
+                plant=plant.constants.shape,
+                gust=gust.constants.shape,
+                rate_faults=self.rate_faults.constants.shape,
+                surface_faults=self.surface_faults.constants.shape,
+            )
         )
-        return measured, faults
+        self.draws: Draws[LoopDraws] = Draws(
+            LoopDraws(
+                sensors=self.sensors.draws.names,
+                plant=plant.draws.names,
+                gust=gust.draws.names,
+                rate_faults=self.rate_faults.draws.names,
+                surface_faults=self.surface_faults.draws.names,
+            )
+        )
+        self.before: Draws[Any] = gust.before
+        single = ("phi_deg", "beta_deg", "p_deg_s", "r_voted_deg_s", "v_tas_m_s")
+        known = ("mass_kg", "x_cg_ratio", "altitude_ft", "v_cas_kt")
+        rows = {"r_deg_s": self.sensors.n_rates, "surface_deg": N_SURFACES}
+        signals = dict.fromkeys(single, 0) | rows | dict.fromkeys(known, 0)
+        self.bus = Bus(sample_s=options.sample_s, sites=sites, signals=signals)
+
+    def prepare(self, flights: Flights) -> Prepared:
+        """Constants of the parts, and which flights the plant refuses."""
+        plant = self.plant.prepare(flights.parameters, flights.manoeuvres)
+        gust = self.gust.prepare(
+            flights.normals,
+            scale_ratio=flights.parameters["gust_scale_ratio"],
+            v_tas_m_s=plant.constants.v_tas_m_s,
+            sample_s=self.sample_s,
+        )
+        constants = LoopConstants(
+            plant=plant.constants,
+            gust=gust,
+            rate_faults=self.rate_faults.prepare(flights.faults),
+            surface_faults=self.surface_faults.prepare(flights.faults),
+        )
+        return Prepared(constants=constants, infeasible_reason=plant.infeasible_reason)
+
+    def start(self, c: LoopConstants) -> LoopState:
+        """In trim; the gust is stationary."""
+        return LoopState(
+            plant=self.plant.start(c.plant),
+            actuators=self.actuators.start(Nothing()),
+            law=self.law.start(Nothing()),
+            gust=self.gust.start(c.gust),
+            voter=self.voter.start(Nothing()),
+            rate_faults=self.rate_faults.start(c.rate_faults),
+            surface_faults=self.surface_faults.start(c.surface_faults),
+        )
+
+    def step(self, x: LoopState, c: LoopConstants, n: LoopDraws, sample: Row) -> tuple[LoopState, Sample]:
+        """One sample, see `fddbench.interfaces.Loop.step`."""
+        gust, gust_m_s = self.gust.step(x.gust, c.gust, n.gust, like=x.actuators.position_deg[0])
+        surface_faults, surface_deg = self._surfaces(x, c, n, sample)
+        plant, motion = self.plant.step(x.plant, c.plant, n.plant, surface_deg, gust_m_s, sample)
+        _, readings = self.sensors.step(
+            Nothing(), Nothing(), n.sensors,
+            r_deg_s=motion.r_deg_s, beta_deg=motion.beta_deg, p_deg_s=motion.p_deg_s, phi_deg=motion.phi_deg,
+        )  # fmt: skip
+        rate_faults, r_deg_s = self.rate_faults.step(
+            x.rate_faults, c.rate_faults, n.rate_faults, readings.r_deg_s, sample
+        )
+        voter, voted_deg_s = self.voter.step(x.voter, Nothing(), Nothing(), r_deg_s)
+        measured = _measured(motion, readings, r_deg_s, voted_deg_s, surface_deg)
+        law, orders_deg = self.law.step(x.law, Nothing(), Nothing(), measured, motion.bank_command_deg)
+        actuators, _ = self.actuators.step(x.actuators, Nothing(), Nothing(), orders_deg, *self.plant.travel(c.plant))
+        after = LoopState(
+            plant=plant,
+            actuators=actuators,
+            law=law,
+            gust=gust,
+            voter=voter,
+            rate_faults=rate_faults,
+            surface_faults=surface_faults,
+        )
+        return after, Sample(measured=measured, truth=self._truth(motion, gust_m_s), departed=motion.departed)
+
+    def _surfaces(self, x: LoopState, c: LoopConstants, n: LoopDraws, sample: Row) -> tuple[SignalFaultsState, Rows]:
+        """Positions of the surfaces with their faults [deg]; those without a site pass."""
+        position_deg, rows = x.actuators.position_deg, self.surface_faults.rows
+        if not rows:
+            return x.surface_faults, position_deg
+        healthy = np.stack([position_deg[row] for row in rows])
+        after, broken = self.surface_faults.step(x.surface_faults, c.surface_faults, n.surface_faults, healthy, sample)
+        shown = list(position_deg)
+        for row, value in zip(rows, broken, strict=True):
+            shown[row] = value
+        return after, np.stack(shown)
+
+    def _truth(self, motion: Motion, gust_m_s: Row) -> dict[str, Rows]:
+        values = (motion.phi_deg, motion.beta_deg, motion.p_deg_s, motion.r_deg_s, motion.psi_deg, motion.y_m)
+        return dict(zip(self.truth, (*values, gust_m_s, motion.bank_command_deg), strict=True))
+
+
+def _measured(motion: Motion, readings: Readings, r_deg_s: Rows, voted: Row, surface_deg: Rows) -> SimpleNamespace:
+    """The bus at this sample."""
+    return SimpleNamespace(
+        phi_deg=readings.phi_deg,
+        beta_deg=readings.beta_deg,
+        p_deg_s=readings.p_deg_s,
+        r_deg_s=r_deg_s,
+        r_voted_deg_s=voted,
+        surface_deg=surface_deg,
+        v_tas_m_s=motion.v_tas_measured_m_s,
+        mass_kg=motion.mass_measured_kg,
+        x_cg_ratio=motion.x_cg_measured_ratio,
+        altitude_ft=motion.altitude_measured_ft,
+        v_cas_kt=motion.v_cas_measured_kt,
+    )

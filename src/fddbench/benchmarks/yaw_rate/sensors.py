@@ -5,10 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fddbench.blocks.layout import Rows
-from fddbench.blocks.linear import column
+from fddbench.blocks import consumers
+from fddbench.blocks.block import NOTHING
+from fddbench.blocks.drawn import Draw, Draws
+from fddbench.blocks.layout import Nothing, Row, Rows, record
 
-__all__ = ["PRESETS", "Noise"]
+__all__ = ["PRESETS", "Noise", "Readings", "Sensors"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,14 +30,68 @@ class Noise:
     p_deg_s: float
     phi_deg: float
 
-    def r(self, true_deg_s: Rows, normals: Rows) -> Rows:
-        """Three yaw-rate sensors [deg/s], (3, n_cases); normals 0-2."""
-        return true_deg_s + self.r_deg_s * normals[:3]
 
-    def others(self, beta_deg: Rows, p_deg_s: Rows, phi_deg: Rows, normals: Rows) -> Rows:
-        """Sideslip [deg], roll rate [deg/s] and bank angle [deg], (3, n_cases); normals 3-5."""
-        sigma = column((self.beta_deg, self.p_deg_s, self.phi_deg))
-        return np.stack([beta_deg, p_deg_s, phi_deg]) + sigma * normals[3:6]
+@record
+class SensorDraws:
+    """One normal number for each yaw-rate sensor, for sideslip, roll rate and bank angle."""
+
+    r: tuple[Row, ...]
+    beta: Row
+    p: Row
+    phi: Row
+
+
+@record
+class Readings:
+    """Yaw rates [deg/s], (n_sensors, n_cases); sideslip [deg], roll rate [deg/s] and bank angle [deg], (n_cases,)."""
+
+    r_deg_s: Rows
+    beta_deg: Row
+    p_deg_s: Row
+    phi_deg: Row
+
+
+class Sensors:
+    """Redundant yaw-rate sensors and single others, as a block without states and constants.
+
+    Parameters
+    ----------
+    noise : Noise
+        How noisy they are.
+    n_rates : int
+        Yaw-rate sensors; each has a random number of its own for good.
+    """
+
+    states = NOTHING
+    constants = NOTHING
+
+    def __init__(self, noise: Noise, n_rates: int) -> None:
+        self.noise, self.n_rates = noise, n_rates
+        self.draws: Draws[SensorDraws] = Draws(
+            SensorDraws(
+                r=tuple(Draw(*consumers.sensor_number(j)) for j in range(n_rates)),
+                beta=Draw(consumers.SENSORS_A, 3),
+                p=Draw(consumers.SENSORS_B, 0),
+                phi=Draw(consumers.SENSORS_B, 1),
+            )
+        )
+
+    def start(self, c: Nothing) -> Nothing:
+        """Nothing to keep."""
+        return c
+
+    def step(
+        self, x: Nothing, c: Nothing, n: SensorDraws, *, r_deg_s: Row, beta_deg: Row, p_deg_s: Row, phi_deg: Row
+    ) -> tuple[Nothing, Readings]:
+        """What they read of the true values."""
+        del c
+        readings = Readings(
+            r_deg_s=r_deg_s + self.noise.r_deg_s * np.stack(n.r),
+            beta_deg=beta_deg + self.noise.beta_deg * n.beta,
+            p_deg_s=p_deg_s + self.noise.p_deg_s * n.p,
+            phi_deg=phi_deg + self.noise.phi_deg * n.phi,
+        )
+        return x, readings
 
 
 PRESETS: Mapping[str, Noise] = {

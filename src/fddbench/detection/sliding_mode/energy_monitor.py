@@ -1,12 +1,37 @@
 """The energy monitor: an abnormal noise signature on a single sensor."""
 
 from dataclasses import dataclass
+from typing import Any, ClassVar
 
 import numpy as np
 
-from fddbench.blocks.layout import Layout, Rows
+from fddbench.blocks.block import NO_DRAWS, NOTHING
+from fddbench.blocks.drawn import Draws
+from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, record
 
-__all__ = ["EnergyMonitor"]
+__all__ = ["Energies", "EnergyMonitor", "EnergyState"]
+
+
+@record
+class EnergyState:
+    """Previous sample [deg/s], register, exceedances in the window, mean square derivative, and 1 after the first sample."""
+
+    before: Rows
+    register: Rows
+    exceedances: Rows
+    energy: Rows
+    begun: Row
+
+
+@record
+class Energies:
+    """Which sensors have tripped (boolean), and their energies, (n_sites, n_cases).
+
+    An energy is the mean square derivative over about one window, in units of the limit squared.
+    """
+
+    tripped: Rows
+    energy: Rows
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,6 +52,9 @@ class EnergyMonitor:
         Sensors watched, each by itself.
     """
 
+    constants: ClassVar[Layout[Any]] = NOTHING
+    draws: ClassVar[Draws[Any]] = NO_DRAWS
+
     window: int
     count: int
     limit_deg_s2: float
@@ -34,17 +62,19 @@ class EnergyMonitor:
     n_sites: int
 
     @property
-    def states(self) -> Layout:
-        """Previous sample, register, exceedances in the window, mean square derivative, and 1 after the first sample."""
+    def states(self) -> Layout[EnergyState]:
+        """Layout of what it keeps."""
         n = self.n_sites
-        return Layout(before=n, register=n, exceedances=n, energy=n, begun=0)
+        return Layout(EnergyState(before=n, register=n, exceedances=n, energy=n, begun=ROW))
 
-    def step(self, state: Rows, sensors_deg_s: Rows) -> tuple[Rows, Rows, Rows]:
-        """State, which sensors have tripped (boolean) and their energies, (n_sites, n_cases).
+    def start(self, c: Nothing) -> EnergyState:
+        """Nothing seen."""
+        del c
+        return EnergyState(before=0.0, register=0.0, exceedances=0.0, energy=0.0, begun=0.0)
 
-        The energy is the mean square derivative over about one window, in units of the limit squared.
-        """
-        x = self.states.unpack(state)
+    def step(self, x: EnergyState, c: Nothing, n: Nothing, sensors_deg_s: Rows) -> tuple[EnergyState, Energies]:
+        """State at the next sample, and the energies at this one."""
+        del c, n
         slope = np.where(x.begun > 0.0, (sensors_deg_s - x.before) / (self.sample_s * self.limit_deg_s2), 0.0)
         exceeds = np.where(np.abs(slope) > 1.0, 1.0, 0.0)
         top = 2.0 ** (self.window - 1)
@@ -52,7 +82,11 @@ class EnergyMonitor:
         register = 2.0 * (x.register - oldest * top) + exceeds
         exceedances = x.exceedances - oldest + exceeds
         energy = x.energy + (slope * slope - x.energy) / self.window
-        after = self.states.pack(
-            before=sensors_deg_s, register=register, exceedances=exceedances, energy=energy, begun=np.ones_like(x.begun)
+        after = EnergyState(
+            before=sensors_deg_s,
+            register=register,
+            exceedances=exceedances,
+            energy=energy,
+            begun=np.ones_like(x.begun),
         )
-        return after, exceedances >= float(self.count), energy
+        return after, Energies(tripped=exceedances >= float(self.count), energy=energy)

@@ -9,14 +9,27 @@ through the filter ``z_f' = -A_f z_f + A_f r``. The scheme is explicit but for t
 which is one scalar equation for s = |P_o e|. The DC gain of the reconstruction is then the same at every sample time.
 """
 
+from typing import Any
+
 import numpy as np
 
-from fddbench.blocks.layout import Layout, Rows
+from fddbench.blocks.block import NO_DRAWS, NOTHING
+from fddbench.blocks.drawn import Draws
+from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, record
 from fddbench.blocks.linear import affine, column, product, total
 from fddbench.detection.sliding_mode.gains import SlidingModeGains
 from fddbench.flight.lateral_lpv import lateral_lpv
 
-__all__ = ["Observer"]
+__all__ = ["Observer", "ObserverState"]
+
+
+@record
+class ObserverState:
+    """State of the observer, its rate, and the filtered yaw rate."""
+
+    x: Rows
+    rate: Rows
+    z_f: Row
 
 
 class Observer:
@@ -30,7 +43,9 @@ class Observer:
         T [s].
     """
 
-    states = Layout(x=5, rate=5, z_f=0)
+    states = Layout(ObserverState(x=5, rate=5, z_f=ROW))
+    constants: Layout[Any] = NOTHING
+    draws: Draws[Any] = NO_DRAWS
 
     def __init__(self, gains: SlidingModeGains, sample_s: float) -> None:
         self.gains, self.sample_s = gains, sample_s
@@ -42,11 +57,14 @@ class Observer:
         self.p_o = column([-0.5 / pole for pole in gains.error_pole_1_s])
         self.k = column(gains.k)
 
-    def start(self, n_cases: int) -> np.ndarray:
+    def start(self, c: Nothing) -> ObserverState:
         """At rest."""
-        return self.states.zeros(n_cases)
+        del c
+        return ObserverState(x=0.0, rate=0.0, z_f=0.0)
 
-    def step(self, state: Rows, y: Rows, r_rad_s: Rows, surface_deg: Rows, rho: Rows) -> tuple[Rows, Rows]:
+    def step(
+        self, s: ObserverState, c: Nothing, n: Nothing, y: Rows, r_rad_s: Row, surface_deg: Rows, rho: Rows
+    ) -> tuple[ObserverState, Row]:
         """State and reconstruction of the fault on the voted yaw rate [rad/s], (n_cases,), at this sample.
 
         Parameters
@@ -60,7 +78,8 @@ class Observer:
         rho : (4, n_cases) rows
             Scheduling parameters from measured values [-].
         """
-        s, g, T = self.states.unpack(state), self.gains, self.sample_s
+        del c, n
+        g, T = self.gains, self.sample_s
         y_m = np.concatenate([y, s.z_f[np.newaxis]])
         predicted = s.x + T * s.rate
         nu = self._injection(_outputs(predicted) - y_m)
@@ -72,7 +91,7 @@ class Observer:
         rate = linear - product(affine(self.linear_gain, rho), _outputs(x) - y_m)
         z_f = s.z_f + T * g.filter_pole_1_s * (r_rad_s - s.z_f)
         reconstruction = total([g.w[j] * nu[j] for j in range(4)])
-        return self.states.pack(x=x, rate=rate, z_f=z_f), reconstruction
+        return ObserverState(x=x, rate=rate, z_f=z_f), reconstruction
 
     def _injection(self, predicted_error: Rows) -> Rows:
         """Injection ``nu = -K P_o e / (|P_o e| + delta)`` with e after the injection, (4, n_cases).

@@ -1,8 +1,11 @@
 """The keys of a campaign file and what values they take."""
 
+from functools import cache
 from typing import Annotated, Any, Literal, get_type_hints
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, create_model
+
+from fddbench.errors import FddbenchError
 
 __all__ = [
     "CampaignFile",
@@ -14,6 +17,7 @@ __all__ = [
     "Purpose",
     "ScenarioEntry",
     "TruncatedNormal",
+    "campaign_file",
 ]
 
 NAME_PATTERN = "^[A-Za-z0-9][A-Za-z0-9._-]{0,63}$"
@@ -136,12 +140,10 @@ class ScenarioEntry(Strict):
 
 
 class CampaignFile(Strict):
-    """A campaign as it is written.
+    """A campaign as it is written; `campaign_file` adds the choices of its benchmark.
 
     Attributes
     ----------
-    plant, voter, sensors, wind : str
-        Choices of the benchmark; its first ones by default.
     purpose : {"evaluation", "tuning"}
         Tuning and evaluation never share a flight.
     seed : int
@@ -159,10 +161,6 @@ class CampaignFile(Strict):
     name: Name
     about: str = ""
     benchmark: str
-    plant: str | None = None
-    voter: str | None = None
-    sensors: str | None = None
-    wind: str | None = None
     purpose: Purpose = "evaluation"
     seed: Seed
     sample_s: Annotated[float, Field(ge=1e-4, le=0.1)] = 0.01
@@ -171,6 +169,24 @@ class CampaignFile(Strict):
     scenarios: Annotated[tuple[ScenarioEntry, ...], Field(min_length=1)]
     dispersions: Dispersions = Dispersions()
     detectors: Annotated[tuple[Name, ...], Field(min_length=1)]
+
+
+@cache
+def campaign_file(choices: tuple[str, ...]) -> type[CampaignFile]:
+    """Keys of a campaign on a benchmark with these choices (``plant``, ``voter``, …), each a name.
+
+    Raises
+    ------
+    FddbenchError
+        A choice is called as a key that every campaign has.
+    """
+    taken = [key for key in choices if key in CampaignFile.model_fields or not key.isidentifier()]
+    if taken:
+        raise FddbenchError(
+            f"a benchmark cannot offer the choices {taken}: campaigns have keys of that name; rename them"
+        )
+    fields: Any = dict.fromkeys(choices, (str | None, None))
+    return create_model("CampaignFile", __base__=CampaignFile, __doc__=CampaignFile.__doc__, **fields)
 
 
 def extra_hint(model: type[BaseModel]) -> Any:

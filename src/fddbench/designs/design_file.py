@@ -5,7 +5,7 @@ from typing import Any
 
 import yaml
 
-from fddbench.campaign.model import Name, Seed, Strict
+from fddbench.campaign.rules.model import Name, Seed, Strict
 
 __all__ = ["DesignFile", "TunedOn", "design_text"]
 

@@ -6,9 +6,9 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
-from fddbench.campaign.document import Address, Document
-from fddbench.campaign.model import extra_hint
-from fddbench.campaign.wording import Finding, say
+from fddbench.campaign.reading.document import Address, Document
+from fddbench.campaign.rules.model import extra_hint
+from fddbench.campaign.rules.wording import Finding, say
 from fddbench.errors import Mistake, did_you_mean
 
 __all__ = ["allowed_keys", "mistakes_of"]

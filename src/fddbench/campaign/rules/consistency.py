@@ -1,34 +1,37 @@
 """Numbers of a campaign that must fit together: times on the clock and inside the flight, counts."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from math import prod
 
-from fddbench.campaign.document import Address, Document
-from fddbench.campaign.fault_entries import Faults
-from fddbench.campaign.model import LONGEST_FLIGHT_S, CampaignFile
-from fddbench.campaign.ranges import ranges
+from fddbench.campaign.reading.document import Address, Document
+from fddbench.campaign.rules.model import LONGEST_FLIGHT_S, CampaignFile
+from fddbench.campaign.rules.ranges import ranges
 from fddbench.campaign.sampling import count
 from fddbench.campaign.streams import name_word
-from fddbench.campaign.timing import faulty_sites, flight_s, last_onset_s, on_clock, samples
+from fddbench.campaign.timing import faulty_sites, flight_s, on_clock
 from fddbench.errors import FddbenchError, Mistake
 from fddbench.faults.specification import FaultSpecification
-from fddbench.interfaces import Benchmark
+from fddbench.faults.timing import last_onset_s, samples
+from fddbench.interfaces import Benchmark, Plant
 
-__all__ = ["MOST_CASES", "inconsistencies"]
+__all__ = ["MOST_CASES", "Faults", "inconsistencies"]
+
+Faults = Mapping[int, tuple[FaultSpecification, ...]]
+"""Faults by the position of their scenario in the file."""
 
 MOST_CASES = 10_000_000
 """Largest campaign [cases]."""
 
 
 def inconsistencies(
-    document: Document, written: CampaignFile, faults: Faults, benchmark: Benchmark
+    document: Document, written: CampaignFile, faults: Faults, benchmark: Benchmark, plant: Plant
 ) -> Iterator[Mistake]:
     """Every contradiction in a campaign whose keys and names are right."""
     yield from _repeated(document, [entry.name for entry in written.scenarios])
     yield from _too_many(document, written)
-    yield from ranges(document, written, benchmark)
+    yield from ranges(document, written, plant)
     for number, entry in enumerate(written.scenarios):
-        yield from _times(document, written, number, faults[number], benchmark)
+        yield from _times(document, written, number, faults[number], benchmark, plant)
         if entry.detection_time_limit_s is not None and not faults[number]:
             message = "a healthy flight has no detection time; remove this key or add faults"
             yield document.mistake(("scenarios", number, "detection_time_limit_s"), message, key=True)
@@ -63,15 +66,20 @@ def _too_many(document: Document, written: CampaignFile) -> Iterator[Mistake]:
 
 
 def _times(
-    document: Document, written: CampaignFile, number: int, faults: tuple[FaultSpecification, ...], benchmark: Benchmark
+    document: Document,
+    written: CampaignFile,
+    number: int,
+    faults: tuple[FaultSpecification, ...],
+    benchmark: Benchmark,
+    plant: Plant,
 ) -> Iterator[Mistake]:
     entry = written.scenarios[number]
     given = written.duration_s if entry.duration_s is None else entry.duration_s
     limit = entry.detection_time_limit_s
     try:
-        end_s = flight_s(faults, entry.manoeuvre, benchmark, duration_s=given, override_s=limit)
+        end_s = flight_s(faults, entry.manoeuvre, plant, duration_s=given, override_s=limit)
     except (FddbenchError, LookupError, ValueError):
-        n = len(faulty_sites(faults, benchmark))
+        n = len(faulty_sites(faults, plant.sites))
         message = (
             f"benchmark {benchmark.name!r} states no detection time for {n} faulty sites; add detection_time_limit_s"
         )

@@ -6,7 +6,7 @@ from typing import Any
 
 import yaml
 
-from fddbench.campaign.scalars import resolve
+from fddbench.campaign.reading.scalars import resolve
 
 __all__ = ["canonical_text", "fingerprint", "text_sha256"]
 

@@ -7,8 +7,8 @@ from typing import Any
 
 import yaml
 
-from fddbench.campaign.document import Address, Document, refuse
-from fddbench.campaign.scalars import Scalar, resolve
+from fddbench.campaign.reading.document import Address, Document, refuse
+from fddbench.campaign.reading.scalars import Scalar, resolve
 from fddbench.errors import CampaignError, Mistake
 
 __all__ = ["MAX_BYTES", "parse", "read_yaml"]

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from typing import Any
 
-from fddbench.campaign.document import Address, Document, refuse
-from fddbench.campaign.yaml_nodes import parse
+from fddbench.campaign.reading.document import Address, Document, refuse
+from fddbench.campaign.reading.yaml_nodes import parse
 from fddbench.errors import CampaignError, FddbenchError, Mistake, did_you_mean
 
 __all__ = ["with_overrides"]

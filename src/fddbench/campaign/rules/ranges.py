@@ -3,11 +3,11 @@
 from collections.abc import Iterator
 from math import erf, sqrt
 
-from fddbench.campaign.document import Address, Document
-from fddbench.campaign.model import CampaignFile, Distribution, TruncatedNormal
-from fddbench.campaign.wording import unit_of
+from fddbench.campaign.reading.document import Address, Document
+from fddbench.campaign.rules.model import CampaignFile, Distribution, TruncatedNormal
+from fddbench.campaign.rules.wording import unit_of
 from fddbench.errors import Mistake
-from fddbench.interfaces import Benchmark, Parameter
+from fddbench.interfaces import Parameter, Plant
 
 __all__ = ["ranges"]
 
@@ -15,9 +15,9 @@ _LEAST_PROBABILITY = 0.1
 """Of a truncated normal's window: what is drawn again more than ten times on average was meant otherwise."""
 
 
-def ranges(document: Document, written: CampaignFile, benchmark: Benchmark) -> Iterator[Mistake]:
+def ranges(document: Document, written: CampaignFile, plant: Plant) -> Iterator[Mistake]:
     """Every dispersed value that the benchmark does not fly, and every distribution that cannot be drawn."""
-    known = {entry.name: entry for entry in benchmark.parameters}
+    known = {entry.name: entry for entry in plant.parameters}
     dispersions = written.dispersions
     for block, lists in (("grid", dispersions.grid), ("sequence", dispersions.sequence)):
         for name, values in lists.items():

@@ -4,30 +4,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from fddbench.campaign.document import Address
+from fddbench.campaign.reading.document import Address
 from fddbench.errors import did_you_mean
+from fddbench.units import unit_of_name
 
 __all__ = ["Finding", "say", "shown", "unit_of"]
 
-_UNITS = {
-    "_percent_s": "%/s",
-    "_percent": "%",
-    "_deg2_s2": "deg^2/s^2",
-    "_deg_s2": "deg/s^2",
-    "_deg_s": "deg/s",
-    "_rad_s": "rad/s",
-    "_m_s2": "m/s^2",
-    "_m_s": "m/s",
-    "_kn": "kn",
-    "_kt": "kt",
-    "_hz": "Hz",
-    "_rad": "rad",
-    "_deg": "deg",
-    "_kg": "kg",
-    "_ft": "ft",
-    "_m": "m",
-    "_s": "s",
-}
 _LONGEST_SHOWN = 60
 
 
@@ -38,9 +20,9 @@ def unit_of(address: Address) -> str:
     (' [kg]', '')
     """
     for part in reversed(address):
-        for suffix, unit in _UNITS.items():
-            if isinstance(part, str) and part.endswith(suffix):
-                return f" [{unit}]"
+        unit = unit_of_name(part) if isinstance(part, str) else ""
+        if unit:
+            return f" [{unit}]"
     return ""
 
 

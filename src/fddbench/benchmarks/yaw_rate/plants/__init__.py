@@ -1,0 +1,1 @@
+"""What can fly on the yaw-rate benchmark, a file each."""

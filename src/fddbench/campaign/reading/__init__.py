@@ -1,0 +1,1 @@
+"""From YAML with positions to plain data that remembers where everything stood."""

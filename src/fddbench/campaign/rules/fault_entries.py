@@ -1,0 +1,94 @@
+"""Faults of a campaign file, each checked by the class that is registered for its kind or stands in a file beside it."""
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from fddbench import kinds
+from fddbench.campaign.reading.document import Address, Document
+from fddbench.campaign.rules.messages import mistakes_of
+from fddbench.errors import FddbenchError, Mistake, reason_of
+from fddbench.faults.specification import FaultSpecification
+from fddbench.interfaces import Site
+
+__all__ = ["ReadFaults", "read_faults"]
+
+_SIZES = ("amplitude", "rate", "variance", "hold_value")
+
+
+@dataclass
+class ReadFaults:
+    """Faults by the position of their scenario, the files their kinds came from, and what is wrong."""
+
+    lists: dict[int, tuple[FaultSpecification, ...]] = field(default_factory=dict)
+    files: dict[str, bytes] = field(default_factory=dict)
+    mistakes: list[Mistake] = field(default_factory=list)
+
+
+def read_faults(document: Document, sites: Sequence[Site], folder: Path) -> ReadFaults:
+    """Faults of every scenario, and what is wrong with them; entries that are no mappings are left to the schema.
+
+    The sites that a fault names say in which unit its sizes are written; when none is known, the unit of the first site of
+    the benchmark, or deg/s.
+    """
+    found = ReadFaults()
+    for scenario in range(len(document.items("scenarios"))):
+        faults = []
+        for number, entry in enumerate(document.items("scenarios", scenario, "faults")):
+            if isinstance(entry, dict):
+                fault = _read_fault(document, ("scenarios", scenario, "faults", number), entry, sites, folder, found)
+                faults += [fault] if fault is not None else []
+        found.lists[scenario] = tuple(faults)
+    return found
+
+
+def _read_fault(
+    document: Document, address: Address, entry: dict[str, Any], sites: Sequence[Site], folder: Path, found: ReadFaults
+) -> FaultSpecification | None:
+    kind = entry.get("kind")
+    if not isinstance(kind, str):
+        known = ", ".join(kinds.known("fault"))
+        found.mistakes.append(document.mistake((*address, "kind"), f"every fault needs a kind: one of {known}"))
+        return None
+    units = _units(entry, sites)
+    try:
+        member = kinds.find("fault", kind, beside=folder)
+        model = member.member.in_unit(units[0])
+    except FddbenchError as error:
+        found.mistakes.append(document.mistake((*address, "kind"), str(error)))
+        return None
+    found.files |= member.files
+    try:
+        # a kind in a file is called as the file calls it; its model knows it by its own name
+        fault: FaultSpecification = model.model_validate_json(json.dumps({**entry, **_own_kind(model)}), strict=True)
+    except ValidationError as error:
+        found.mistakes += mistakes_of(error, document, model=model, at=address)
+        return None
+    except (Exception, SystemExit) as error:  # a kind of somebody else's may raise anything
+        found.mistakes.append(document.mistake(address, f"the fault {kind!r} cannot be read: {reason_of(error)}"))
+        return None
+    if len(units) > 1 and any(getattr(fault, size, None) is not None for size in _SIZES):
+        message = (
+            f"the sites {', '.join(fault.sites)} have different units ({', '.join(units)}): give sizes in percent, or a "
+            "fault for each unit"
+        )
+        found.mistakes.append(document.mistake((*address, "sites"), message))
+    return fault
+
+
+def _own_kind(model: type[FaultSpecification]) -> dict[str, str]:
+    """The name by which a model knows itself, for kinds whose file has another."""
+    choices = getattr(model.model_fields["kind"].annotation, "__args__", ())
+    return {"kind": choices[0]} if len(choices) == 1 else {}
+
+
+def _units(entry: dict[str, Any], sites: Sequence[Site]) -> list[str]:
+    """Units of the sites that a fault names, at least one."""
+    named = entry.get("sites")
+    names = named if isinstance(named, list) else []
+    units = [site.unit_name for site in sites if site.name in names] or [site.unit_name for site in sites[:1]]
+    return list(dict.fromkeys(units)) or ["deg/s"]

@@ -1,0 +1,1 @@
+"""Tuned detectors: their files, their kinds, and whether they can fly."""

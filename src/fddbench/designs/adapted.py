@@ -1,0 +1,94 @@
+"""A detector as the composition flies it: a full block whose verdict speaks of every site of the benchmark."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+from fddbench.blocks.block import NO_DRAWS, NOTHING
+from fddbench.blocks.drawn import Draws
+from fddbench.blocks.layout import Layout, Nothing, Rows
+from fddbench.blocks.linear import total
+from fddbench.errors import DesignError
+from fddbench.interfaces import Bus, Verdict
+
+__all__ = ["Adapted"]
+
+
+class Adapted:
+    """Block whose step is fed with the bus and gives a verdict with a row for every site, and an alarm.
+
+    Parameters
+    ----------
+    detector : Detector
+        With what `fddbench.interfaces.Detector` asks for; what it leaves out is filled in here, nothing is repaired.
+    bus : Bus
+        What it was made for.
+    """
+
+    constants: Layout[Any] = NOTHING
+
+    def __init__(self, detector: Any, bus: Bus) -> None:
+        self.detector, self.bus = detector, bus
+        self.states: Layout[Any] = detector.states
+        self.full = getattr(detector, "draws", None) is not None
+        self.draws: Draws[Any] = getattr(detector, "draws", NO_DRAWS)
+        self.recorded: tuple[str, ...] = detector.recorded
+        self.watches: tuple[str, ...] = tuple(getattr(detector, "watches", bus.names))
+        self.isolates: bool = bool(getattr(detector, "isolates", True))
+
+    def start(self, c: Nothing) -> Any:
+        """State before the first sample."""
+        return self.detector.start(c) if self.full else self.detector.start()
+
+    def step(self, x: Any, c: Nothing, n: Any, measured: SimpleNamespace) -> tuple[Any, Verdict]:
+        """State after this sample, and the verdict on it."""
+        own = SimpleNamespace(**vars(measured))
+        after, verdict = self.detector.step(x, c, n, own) if self.full else self.detector.step(x, own)
+        self._check(verdict)
+        declared = self._spread(verdict)
+        alarm = verdict.alarm
+        if alarm is None:
+            alarm = np.where(total(declared * 1.0) > 0.0, 1.0, 0.0)
+        return after, replace(verdict, declared=declared, alarm=alarm)
+
+    def _check(self, verdict: Any) -> None:
+        """Refuse what is no verdict of this detector.
+
+        Raises
+        ------
+        DesignError
+            A wrong shape, no alarm and no declaration, or other signals than announced.
+        """
+        if not isinstance(verdict, Verdict):
+            raise DesignError(f"a step gives (state, Verdict), got {type(verdict).__name__} as verdict")
+        n_cases = np.shape(verdict.residual)[-1:]
+        shapes: dict[str, tuple[Any, tuple[int, ...]]] = {"residual": (verdict.residual, n_cases)}
+        if self.isolates:
+            shapes["declared"] = (verdict.declared, (len(self.watches), *n_cases))
+        elif verdict.alarm is None or verdict.declared is not None:
+            raise DesignError("a detector with isolates = False gives an alarm and declares no sites (declared=None)")
+        if verdict.alarm is not None:
+            shapes["alarm"] = (verdict.alarm, n_cases)
+        wrong = [
+            f"{name} of shape {need}, got {np.shape(value)}"
+            for name, (value, need) in shapes.items()
+            if np.shape(value) != need or not n_cases
+        ]
+        if wrong:
+            raise DesignError(f"a verdict needs {'; '.join(wrong)}")
+        if set(verdict.signals) != set(self.recorded):
+            raise DesignError(
+                f"recorded announces {sorted(self.recorded)}, the verdict shows {sorted(verdict.signals)}; make them equal"
+            )
+
+    def _spread(self, verdict: Verdict) -> Rows:
+        """Declared sites of the whole benchmark: nothing where the detector does not watch."""
+        nothing = np.zeros_like(verdict.residual)
+        if verdict.declared is None:
+            return np.stack([nothing] * len(self.bus.sites))
+        if self.watches == self.bus.names:
+            return verdict.declared
+        rows = dict(zip(self.watches, verdict.declared, strict=True))
+        return np.stack([rows[name] * 1.0 if name in rows else nothing for name in self.bus.names])

@@ -1,0 +1,152 @@
+"""Tuned detectors: a file with the kind, the numbers, where they come from and what they were tuned on."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from fddbench import kinds
+from fddbench.campaign.reading.canonical import text_sha256
+from fddbench.campaign.reading.document import Document, refuse
+from fddbench.campaign.reading.yaml_nodes import read_yaml
+from fddbench.campaign.rules.messages import mistakes_of
+from fddbench.campaign.rules.wording import shown
+from fddbench.designs.design_file import DesignFile, TunedOn
+from fddbench.errors import DesignError, FddbenchError, Mistake
+from fddbench.interfaces import Bus, Detector
+from fddbench.kinds import Kind
+from fddbench.plugin_files import noticed_reads
+
+__all__ = ["Design", "read_design"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Design:
+    """A tuned detector.
+
+    Attributes
+    ----------
+    name : str
+        As campaigns and result columns call it; the file's name.
+    kind : Kind
+        The class of the detector, registered or in a file beside the design.
+    gains : BaseModel
+        Its numbers.
+    about, source : str
+        What it is, and where its numbers come from.
+    tuned_on : tuple of TunedOn
+        Flights the numbers were chosen on.
+    text, sha256 : str
+        The file, and its fingerprint (with that of the files it stands on).
+    files : mapping of str to bytes
+        Files beside the design that the detector stands on.
+    path : Path
+        Where it was found.
+    where : str
+        Place in the campaign that names it.
+    gamma : float or None
+        What its recipe guarantees in the worst case [-].
+    """
+
+    name: str
+    kind: Kind
+    gains: BaseModel
+    about: str
+    source: str
+    tuned_on: tuple[TunedOn, ...]
+    text: str = field(repr=False)
+    sha256: str
+    files: Mapping[str, bytes] = field(repr=False)
+    path: Path
+    where: str
+    gamma: float | None = None
+
+    def build(self, bus: Bus) -> Detector:
+        """Detector for a bus.
+
+        Raises
+        ------
+        DesignError
+            Its numbers do not make one, or it reads a file that would not travel with the results.
+        """
+        with noticed_reads(self.path.parent) as read:
+            detector: Detector = self.kind.member.from_design(self.gains, bus)
+        stray = sorted(set(read) - set(self.files))
+        if stray and self.kind.files:
+            raise DesignError(
+                f"it reads {', '.join(stray)} beside it, which would not travel with the results; declare it in its Python "
+                f"file: FILES = ({', '.join(map(repr, stray))},)"
+            )
+        return detector
+
+
+def read_design(path: Path, *, where: str = "") -> Design:
+    """Design of a file.
+
+    Raises
+    ------
+    CampaignError
+        Every mistake in it.
+    """
+    document = read_yaml(path)
+    if not isinstance(document.data, dict):
+        message = f"a design is a mapping of keys (kind, source, tuned_on, gains), got {shown(document.data)}"
+        refuse([document.mistake((), message)])
+    written, kind = None, None
+    mistakes: list[Mistake] = []
+    try:
+        written = DesignFile.model_validate_json(json.dumps(document.data), strict=True)
+    except ValidationError as error:
+        mistakes += mistakes_of(error, document, model=DesignFile)
+    try:
+        name = document.get("kind")
+        kind = kinds.find("detector", name, beside=path.parent) if isinstance(name, str) else None
+    except FddbenchError as error:
+        mistakes.append(document.mistake(("kind",), str(error)))
+    gains = _gains(document, kind, mistakes)
+    refuse(mistakes)
+    assert written is not None
+    assert kind is not None
+    assert gains is not None
+    text = path.read_text(encoding="utf-8-sig")
+    stands_on = "".join(f"{each}:{text_sha256(content.hex())}" for each, content in sorted(kind.files.items()))
+    return Design(
+        name=path.stem,
+        kind=kind,
+        gains=gains,
+        about=written.about,
+        source=written.source,
+        tuned_on=written.tuned_on or (),
+        text=text,
+        sha256=text_sha256(text + stands_on),
+        files=kind.files,
+        path=path,
+        where=where,
+        gamma=_gamma(written.recipe),
+    )
+
+
+def _gains(document: Document, kind: Kind | None, mistakes: list[Mistake]) -> BaseModel | None:
+    """Numbers of a design, None with a mistake when they are not right."""
+    if kind is None:
+        return None
+    model = kind.member.Gains
+    if not (isinstance(model, type) and issubclass(model, BaseModel)):
+        mistakes.append(document.mistake(("kind",), f"{kind.name} needs a class Gains, a pydantic BaseModel"))
+        return None
+    try:
+        found: BaseModel | None = None
+        if isinstance(document.get("gains"), dict):
+            found = model.model_validate_json(json.dumps(document.get("gains")), strict=True)
+    except ValidationError as error:
+        mistakes += mistakes_of(error, document, model=model, at=("gains",))
+    return found
+
+
+def _gamma(recipe: Mapping[str, Any] | None) -> float | None:
+    found = (recipe or {}).get("found")
+    gamma = found.get("gamma") if isinstance(found, dict) else None
+    return float(gamma) if isinstance(gamma, float | int) else None

@@ -1,0 +1,75 @@
+"""Whether what `from_design` gave is a detector, before anything is flown with it."""
+
+import pickle
+import traceback
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+from fddbench.blocks.layout import Layout, Nothing
+from fddbench.designs.adapted import Adapted
+from fddbench.errors import reason_of
+from fddbench.interfaces import Bus
+
+__all__ = ["unsound"]
+
+_TRIALS = 3
+
+
+def unsound(detector: Any, bus: Bus) -> str:
+    """What is wrong with a detector, in one line; "" for one that can fly.
+
+    A step that raises on plain numbers, gives another shape or no verdict is one; so is one that keeps something in the
+    detector itself: its result would depend on what flew before.
+    """
+    if not isinstance(getattr(detector, "states", None), Layout):
+        return "from_design gave no detector: it needs an attribute `states`, a fddbench.blocks.layout.Layout"
+    names = getattr(detector, "recorded", None)
+    if not isinstance(names, tuple) or not all(isinstance(name, str) for name in names):
+        return "it needs an attribute `recorded`, a tuple of the names of what it shows, () for nothing"
+    before = _fingerprint(detector)
+    wrong = _tried(detector, bus)
+    if wrong:
+        return wrong
+    if before is not None and _fingerprint(detector) != before:
+        return "its step keeps something in the detector itself; keep it in the state, which is passed in and out"
+    return ""
+
+
+def _tried(detector: Any, bus: Bus) -> str:
+    """What goes wrong in a few steps on plain numbers; "" for nothing."""
+    adapted = Adapted(detector, bus)
+    unknown = [name for name in adapted.watches if name not in bus.names]
+    if unknown:
+        return f"it watches {unknown}, the sites of this benchmark are {list(bus.names)}"
+    try:
+        state = adapted.states.spread(adapted.start(Nothing()), 2)
+    except (Exception, SystemExit) as error:
+        return f"its start is no record of its states: {reason_of(error)}"
+    normals = adapted.draws.unpack(np.zeros((adapted.draws.size, 2)))
+    with np.errstate(all="ignore"):
+        for trial in range(_TRIALS):
+            measured = {
+                name: np.full((rows, 2) if rows else (2,), 0.1 * (trial + 1.0)) for name, rows in bus.signals.items()
+            }
+            try:
+                state, _ = adapted.step(state, Nothing(), normals, SimpleNamespace(**measured))
+                adapted.states.check(state, 2)
+            except (Exception, SystemExit) as error:
+                return f"its step raised {reason_of(error)}{_place(error)}"
+    return ""
+
+
+def _place(error: BaseException) -> str:
+    """Line of the user's code that raised, in brackets."""
+    frames = [f for f in traceback.extract_tb(error.__traceback__) if "fddbench/" not in f.filename.replace("\\", "/")]
+    return f" ({frames[-1].filename}:{frames[-1].lineno})" if frames else ""
+
+
+def _fingerprint(detector: Any) -> bytes | None:
+    """Everything the detector holds, as bytes; None when that cannot be told."""
+    try:
+        return pickle.dumps(vars(detector))
+    except Exception:
+        return None

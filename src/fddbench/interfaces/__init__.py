@@ -1,0 +1,40 @@
+"""The plug-in protocols, a page each: what a benchmark, a loop, a voter and a detector must offer.
+
+A step is a function of one sample in plain NumPy on rows of numbers, (n_cases,) or (n_rows, n_cases), without a
+data-dependent ``if``; see ``blocks`` for the operations it may use. It runs on many flights at once and sees one sample, so
+it cannot look ahead.
+"""
+
+from fddbench.interfaces.benchmark import Benchmark, Choice, Options, Parameter, Plant, SinglePlant
+from fddbench.interfaces.bus import Bus
+from fddbench.interfaces.detector import Detector, Tunable, Verdict, Voter
+from fddbench.interfaces.fault import Fault, FaultBlock, Instant
+from fddbench.interfaces.floats import Floats
+from fddbench.interfaces.loop import FlightFaults, Flights, Loop, Prepared, Sample
+from fddbench.interfaces.recording import Recording
+from fddbench.interfaces.site import Site
+
+__all__ = [
+    "Benchmark",
+    "Bus",
+    "Choice",
+    "Detector",
+    "Fault",
+    "FaultBlock",
+    "FlightFaults",
+    "Flights",
+    "Floats",
+    "Instant",
+    "Loop",
+    "Options",
+    "Parameter",
+    "Plant",
+    "Prepared",
+    "Recording",
+    "Sample",
+    "SinglePlant",
+    "Site",
+    "Tunable",
+    "Verdict",
+    "Voter",
+]

@@ -1,0 +1,127 @@
+"""What a benchmark and its plants must offer."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+from fddbench.interfaces.fault import Fault
+from fddbench.interfaces.loop import Loop
+from fddbench.interfaces.site import Site
+
+__all__ = ["Benchmark", "Choice", "Options", "Parameter", "Plant", "SinglePlant", "default_choices"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Parameter:
+    """A number that differs from flight to flight; its name carries its unit.
+
+    Attributes
+    ----------
+    name, about : str
+        As in campaigns (``mass_kg``) and as explained by ``fddbench list``.
+    default : float
+        Where a campaign does not disperse it.
+    low, high : float
+        What a campaign may ask for, in the unit of the name.
+    """
+
+    name: str
+    about: str
+    default: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Choice:
+    """Something that a campaign may choose on a benchmark, by a key of its own (``voter: median``).
+
+    Attributes
+    ----------
+    about : str
+        What is chosen.
+    options : mapping of str to object
+        What there is, by name; the first is the default.
+    family : str
+        Family of kinds whose registered members (``fddbench.<family>s``) and files (``mine.py:Mine``) may be chosen too; "":
+        only the options.
+    needs : sequence of str
+        What a member of that family must have.
+    """
+
+    about: str
+    options: Mapping[str, Any]
+    family: str = ""
+    needs: Sequence[str] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """What a loop is built from.
+
+    Attributes
+    ----------
+    chosen : mapping of str to object
+        What was chosen, by the keys of `Benchmark.choices`.
+    sample_s, substeps : float, int
+        Clock [s], and integration steps in a sample.
+    faults : sequence of sequences of Fault
+        Faults of every scenario that will fly: the loop holds the kinds that are used, where they are used.
+    """
+
+    chosen: Mapping[str, Any]
+    sample_s: float = 0.01
+    substeps: int = 1
+    faults: Sequence[Sequence[Fault]] = field(default=())
+
+
+class Plant(Protocol):
+    """What flies: its parameters, what it refuses, what it can do; a benchmark with a single one may be its own plant."""
+
+    sites: tuple[Site, ...]
+    parameters: tuple[Parameter, ...]
+    refused_parameters: Mapping[str, str]
+    manoeuvres: Mapping[str, float]
+    """Manoeuvre → length of a healthy flight [s]."""
+
+
+class Benchmark(Protocol):
+    """An aircraft or engine with its fault sites, manoeuvres and requirements; registered under ``fddbench.benchmarks``.
+
+    `choices` are the keys by which a campaign chooses; `shown` names the signals in the pictures of the report, `limits_from`
+    says where the time limits come from.
+    """
+
+    name: str
+    about: str
+    choices: Mapping[str, Choice]
+    shown: tuple[str, ...]
+    limits_from: str
+
+    def plant(self, chosen: Mapping[str, Any]) -> Plant:
+        """What flies with these choices."""
+        ...
+
+    def loop(self, options: Options) -> Loop:
+        """Closed loop for these options; raises `FddbenchError` for a choice it does not have."""
+        ...
+
+
+def default_choices(benchmark: Benchmark) -> dict[str, Any]:
+    """What is chosen on a benchmark when a campaign says nothing."""
+    return {key: next(iter(choice.options.values())) for key, choice in benchmark.choices.items()}
+
+
+class SinglePlant:
+    """Base of a benchmark that is its own plant and offers no choices; any of these may be overridden."""
+
+    choices: Mapping[str, Choice] = {}
+    refused_parameters: Mapping[str, str] = {}
+    parameters: tuple[Parameter, ...] = ()
+    shown: tuple[str, ...] = ()
+    limits_from = "the author of the benchmark"
+
+    def plant(self, chosen: Mapping[str, Any]) -> Any:
+        """The benchmark itself."""
+        del chosen
+        return self

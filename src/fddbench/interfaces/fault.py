@@ -1,0 +1,87 @@
+"""What a kind of fault must offer."""
+
+from typing import Any, Protocol
+
+from fddbench.blocks.layout import Layout, Rows, record
+from fddbench.interfaces.floats import Floats
+from fddbench.interfaces.site import Site
+
+__all__ = ["Fault", "FaultBlock", "Instant"]
+
+
+@record
+class Instant:
+    """A sample as a fault sees it, (n_sites, n_cases) each.
+
+    Attributes
+    ----------
+    since_samples : rows
+        Samples since the onset on each site; negative before.
+    time_s : rows
+        The same in seconds, 0 while the fault is not there.
+    active : boolean rows
+        Where the fault is there.
+    sign : rows
+        1, or -1 on every second site of faults with opposite sign.
+    random : rows or None
+        A standard normal number a site, the same on all sites unless the fault is independent; None unless the kind is
+        `random`.
+    """
+
+    since_samples: Rows
+    time_s: Rows
+    active: Rows
+    sign: Rows
+    random: Rows | None
+
+
+class FaultBlock(Protocol):
+    """What flies of a kind of fault on some sites: its constants per flight, its states, and its step."""
+
+    states: Layout[Any]
+    constants: Layout[Any]
+
+    def start(self, c: Any) -> Any:
+        """State before sample 0."""
+        ...
+
+    def step(self, x: Any, c: Any, reading: Rows, now: Instant) -> tuple[Any, Rows]:
+        """State at the next sample, and what the sites show, (n_sites, n_cases).
+
+        `reading` is what the fault acts on: the signal, or with ``mode: replace`` what stands in its place. What is given
+        where the fault is not active is not used.
+        """
+        ...
+
+
+class Fault(Protocol):
+    """A fault as a campaign writes it: a pydantic model registered under ``fddbench.faults``.
+
+    `fddbench.faults.specification.FaultSpecification` brings all of this but the sizes and the block.
+    """
+
+    kind: str
+    mode: str
+    sites: tuple[str, ...]
+    onset_s: float
+    end_s: float | None
+    correlation: str
+    delay_s: float
+    freeze: bool
+    random: Any
+
+    def numbers(self, site: Site, uniform: Floats) -> Any:
+        """Constants of the block on one site, a record of numbers or (n_cases,) arrays, in the unit of the site.
+
+        `uniform`, (n_cases,), holds a number in (0, 1) of each flight, for what is drawn once.
+        """
+        ...
+
+    def held(self, site: Site) -> Any:
+        """What stands in place of the signal with ``mode: replace``, in the unit of the site."""
+        ...
+
+    @classmethod
+    def block(cls, n_sites: int, sample_s: float) -> FaultBlock:
+        """What flies of this kind on so many sites."""
+        ...

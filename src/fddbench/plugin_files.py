@@ -1,0 +1,194 @@
+"""Kinds in a Python file of one's own, with the files beside it that it needs.
+
+A file may import modules that lie beside it and read data that lie beside it. Both are noticed while it is imported; what it
+reads later it must declare, as ``FILES = ("weights.npy",)`` in the file. All of them travel into the folder of results, so
+that replay and report read the same.
+"""
+
+import importlib.abc
+import importlib.util
+import re
+import sys
+import traceback
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from hashlib import sha256
+from importlib.machinery import ModuleSpec
+from pathlib import Path
+from threading import RLock
+from types import ModuleType
+from typing import Any
+
+from fddbench.errors import FddbenchError, reason_of
+
+__all__ = ["LoadedClass", "is_file_kind", "load_class", "noticed_reads"]
+
+_PATTERN = re.compile(r"([A-Za-z_][A-Za-z0-9_]*\.py):([A-Za-z_][A-Za-z0-9_]*)")
+_LARGEST = 200_000_000
+"""Bytes of a file beside a plug-in that is carried along."""
+
+
+@dataclass(frozen=True)
+class LoadedClass:
+    """Something in a file, and the files it stands on, by their names in that folder."""
+
+    member: Any
+    files: Mapping[str, bytes] = field(repr=False)
+
+
+@dataclass(frozen=True)
+class _Loaded:
+    module: ModuleType
+    files: Mapping[str, bytes]
+
+
+_loaded: dict[str, list[_Loaded]] = {}
+"""By the sha256 of the file: each set of siblings it has been loaded with."""
+_lock = RLock()
+
+
+def is_file_kind(name: str) -> bool:
+    """Whether a kind names a file rather than a registered member."""
+    return ".py" in name or ":" in name
+
+
+def load_class(name: str, folder: Path) -> LoadedClass:
+    """What ``FILE.py:Name`` names in a folder.
+
+    Raises
+    ------
+    FddbenchError
+        The file is missing, does not run, lies elsewhere or has no such name; the message has one line.
+    """
+    match = _PATTERN.fullmatch(name)
+    if not match:
+        raise FddbenchError(f"{name!r} is no plug-in; write FILE.py:ClassName for a file beside this one")
+    path = folder / match[1]
+    if not path.is_file() or not path.resolve().is_relative_to(folder.resolve()):
+        raise FddbenchError(f"no file {match[1]} in {folder}; a plug-in lies beside the file that names it")
+    with _lock:
+        loaded = _load(path)
+    if match[2] not in vars(loaded.module):
+        names = [each for each, value in vars(loaded.module).items() if _defined_in(value, loaded.module)]
+        raise FddbenchError(f"{path} has no {match[2]!r}. It has: {', '.join(names) or 'none'}")
+    return LoadedClass(getattr(loaded.module, match[2]), loaded.files)
+
+
+def _defined_in(value: Any, module: ModuleType) -> bool:
+    return isinstance(value, type) and value.__module__ == module.__name__
+
+
+def _load(path: Path) -> _Loaded:
+    text = path.read_bytes()
+    digest = sha256(text).hexdigest()
+    for known in _loaded.get(digest, ()):  # a second reading is the same class, if its siblings are the same
+        if all(_read(path.parent, name) == content for name, content in known.files.items() if name != path.name):
+            return known
+    siblings = _Siblings(path.parent)
+    with siblings, noticed_reads(path.parent) as read:
+        # named by content, so that two plug-ins of one file name do not meet
+        module = _executed(path, f"fddbench_plugin_{path.stem}_{digest[:16]}_{len(_loaded.get(digest, ()))}")
+    names = [*siblings.found, *read, *_declared(module, path)]
+    files = {path.name: text} | {name: _read(path.parent, name) or b"" for name in dict.fromkeys(names)}
+    loaded = _Loaded(module, files)
+    _loaded.setdefault(digest, []).append(loaded)
+    return loaded
+
+
+def _executed(path: Path, name: str) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(name, path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    try:
+        spec.loader.exec_module(module)
+    except BaseException as error:
+        del sys.modules[name]
+        if isinstance(error, KeyboardInterrupt):
+            raise
+        lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
+        place = f"{path}:{lines[-1]}" if lines else str(path)
+        raise FddbenchError(f"{place} does not run: {reason_of(error)}") from error
+    return module
+
+
+def _declared(module: ModuleType, path: Path) -> Sequence[str]:
+    """Files that a plug-in says it needs."""
+    names = getattr(module, "FILES", ())
+    if not isinstance(names, tuple | list) or not all(isinstance(name, str) for name in names):
+        raise FddbenchError(f"{path}: FILES is a tuple of file names beside it, got {names!r:.80}")
+    for name in names:
+        inside = (path.parent / name).resolve().is_relative_to(path.parent.resolve())
+        if not inside or not (path.parent / name).is_file():
+            raise FddbenchError(f"{path} declares the file {name!r}, which is not in {path.parent}; put it there")
+    return list(names)
+
+
+def _read(folder: Path, name: str) -> bytes | None:
+    """Content of a file beside a plug-in, None where there is none."""
+    try:
+        if (folder / name).stat().st_size > _LARGEST:
+            raise FddbenchError(
+                f"{folder / name} is larger than {_LARGEST / 1e6:g} MB; it cannot travel with the results"
+            )
+        return (folder / name).read_bytes()
+    except OSError:
+        return None
+
+
+class _Siblings(importlib.abc.MetaPathFinder):
+    """Finds modules beside a plug-in while it is imported, after everything that is installed."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder, self.found, self.modules = folder, list[str](), list[str]()
+
+    def find_spec(self, name: str, path: Any, target: Any = None) -> ModuleSpec | None:
+        """Spec of a sibling."""
+        del target
+        file = self.folder / f"{name}.py"
+        if path is not None or not file.is_file():
+            return None
+        self.found.append(file.name)
+        self.modules.append(name)
+        return importlib.util.spec_from_file_location(name, file)
+
+    def __enter__(self) -> "_Siblings":
+        sys.meta_path.append(self)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        sys.meta_path.remove(self)
+        for name in self.modules:  # another plug-in may have another module of this name
+            sys.modules.pop(name, None)
+
+
+_recorders: list[tuple[Path, list[str]]] = []
+_hooked = False
+
+
+@contextmanager
+def noticed_reads(folder: Path) -> Iterator[list[str]]:
+    """Names of the files of a folder that are opened meanwhile, other than Python modules."""
+    global _hooked
+    if not _hooked:
+        sys.addaudithook(_notice)
+        _hooked = True
+    found: list[str] = []
+    _recorders.append((folder.resolve(), found))
+    try:
+        yield found
+    finally:
+        _recorders.pop()
+
+
+def _notice(event: str, arguments: tuple[Any, ...]) -> None:
+    if event != "open" or not _recorders or not isinstance(arguments[0], str):
+        return
+    folder, found = _recorders[-1]
+    path = Path(arguments[0]).absolute()
+    if path.suffix in {".py", ".pyc"} or "__pycache__" in path.parts:
+        return
+    if path.is_relative_to(folder) and path.is_file():
+        found.append(str(path.relative_to(folder)))
