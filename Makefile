@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint wheel scores bench clean
+.PHONY: demo test lint wheel lowest scores bench clean
 
 demo: $(VENV)/ready
 	$(BIN)/fddbench run campaigns/smoke.yaml --fresh
@@ -21,6 +21,10 @@ lint: $(VENV)/ready-dev
 # the wheel, in an empty environment, from a folder outside the repository
 wheel:
 	bash .ci/wheel
+
+# the lowest versions of pyproject.toml: a campaign, its page and a design
+lowest:
+	bash .ci/lowest
 
 # our scores, kept under version control; read the difference before you commit it
 scores: $(VENV)/ready

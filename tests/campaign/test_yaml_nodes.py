@@ -1,9 +1,11 @@
 import contextlib
 
 import pytest
+import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
+from fddbench.campaign.reading import yaml_nodes
 from fddbench.campaign.reading.canonical import canonical_text
 from fddbench.campaign.reading.scalars import resolve
 from fddbench.campaign.reading.yaml_nodes import parse
@@ -70,3 +72,35 @@ def test_places_count_from_one():
 def test_refuses_numbers_without_size(text):
     with pytest.raises(CampaignError, match=r"x:1:4: "):
         parse(f"a: {text}\n", name="x")
+
+
+DEEP = {
+    "lists": ("a: " + "[" * 5000, "x:1:36"),
+    "mappings": ("a: " + "{a: " * 5000, "x:1:132"),
+    "blocks": ("- " * 5000, "x:1:67"),
+    "keys": ("? " * 5000, "x:1:67"),
+    "keys_in_line": ("{? " * 5000, "x:1:100"),
+    "lists_as_keys": ("{[" * 3000, "x:1:34"),
+    "indented": ("\n".join(" " * level + "a:" for level in range(2000)), "x:34:34"),
+    "closed": ("[" * 34 + "]" * 34, "x:1:34"),
+    "then_a_mistake": ("a: " + "[" * 500 + "\nb: }", "x:1:36"),
+}
+
+
+@pytest.mark.parametrize("loader", [yaml.SafeLoader, getattr(yaml, "CSafeLoader", yaml.SafeLoader)])
+@pytest.mark.parametrize(("text", "place"), DEEP.values(), ids=DEEP)
+def test_depth_is_refused_in_our_words_whatever_the_limit_of_pyyaml(text, place, loader, monkeypatch):
+    monkeypatch.setattr(yaml_nodes, "_LOADER", loader)
+    with pytest.raises(CampaignError, match="nested deeper than 32 levels; a campaign needs six") as caught:
+        parse(text, name="x")
+    assert [mistake.where for mistake in caught.value.mistakes] == [place]
+
+
+def test_32_levels_are_read():
+    assert parse("[" * 33 + "]" * 33, name="x").data
+
+
+def test_a_limit_of_pyyaml_hides_no_mistake_found_before_it():
+    with pytest.raises(CampaignError, match="anchors") as caught:
+        parse("a: &b 1\nc: " + "[" * 5000, name="x")
+    assert [mistake.where for mistake in caught.value.mistakes] == ["x:1:4", "x:2:36"]

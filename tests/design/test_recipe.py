@@ -4,8 +4,8 @@ import pytest
 import yaml
 
 from fddbench import gallery
-from fddbench.designs.design import read_design
 from fddbench.design.recipe import cook
+from fddbench.designs.design import read_design
 from fddbench.errors import CampaignError, DesignError
 
 GAMMAS = {"hinf_identity": 0.33400, "hinf_start": 0.6345, "hinf_final": 0.4636, "hinf_optimum": 0.33400}

@@ -1,5 +1,7 @@
-"""The one shape of everything that flies: gust, plant, sensors, faults, voter, law, servos, detectors, scores, and what
-they are composed to.
+"""The one shape of everything that flies, from a gust to the fused kernel.
+
+Gust, plant, sensors, faults, voter, law, actuators, detectors with their parts, scores: all are blocks, and so is what they
+are composed to.
 
 A block is a value that knows the layout of its states, of its constants (what never changes in flight) and of its random
 numbers. A composition derives all three from its parts and addresses them by name, so a part that a campaign does not have

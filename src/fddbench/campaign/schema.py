@@ -12,8 +12,9 @@ __all__ = ["campaign_schema"]
 
 
 def campaign_schema() -> dict[str, Any]:
-    """JSON schema with the choices of every registered benchmark and the keys of every registered fault, in the units of
-    their sites; a package that cannot be imported is left out.
+    """JSON schema with the choices of every registered benchmark and the keys of every registered fault.
+
+    Sizes are in the units of the benchmarks' sites. A package that cannot be imported is left out.
     """
     keys: dict[str, None] = {}
     units: set[str] = set()

@@ -39,7 +39,8 @@ def tune(args: argparse.Namespace) -> int:
     from fddbench.campaign.load import find_campaign, read_campaign
     from fddbench.campaign.reading.yaml_nodes import read_yaml
     from fddbench.design.tuning import held_peaks, require_tuning, tuned, tuned_text
-    from fddbench.designs.design import find_design, read_design
+    from fddbench.designs.design import read_design
+    from fddbench.designs.finding import find_design
     from fddbench.interfaces import Tunable
     from fddbench.runner.assembly import assemble
     from fddbench.runner.observe import healthy_signals

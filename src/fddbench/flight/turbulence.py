@@ -68,8 +68,9 @@ class LateralGust:
         self.sigma_m_s = sigma_m_s
 
     def prepare(self, normals: Rows, *, scale_ratio: Row, v_tas_m_s: Row, sample_s: float) -> GustConstants:
-        """Constants of flights: the process noise is ``P - F P F'`` with the stationary covariance P, so the variance is
-        sigma^2 at every sample; the start is stationary.
+        """Constants of flights; the start is stationary.
+
+        The process noise is ``P - F P F'`` with the stationary covariance P, so the variance is sigma^2 at every sample.
 
         Parameters
         ----------

@@ -29,11 +29,11 @@ class Verdict:
         Size of the fault in the unit of its site: of every watched site, or of the voted signal.
     """
 
-    declared: Rows | None
+    declared: Rows
     residual: Row
     signals: Mapping[str, Row] = field(default_factory=dict)
-    alarm: Row | None = None
-    estimate: Rows | None = None
+    alarm: Row = None
+    estimate: Rows = None
 
 
 class Detector(Protocol):

@@ -1,6 +1,6 @@
 """What a kind of fault must offer."""
 
-from typing import Any, Protocol
+from typing import Any, ClassVar, Protocol
 
 from fddbench.blocks.layout import Layout, Rows, record
 from fddbench.interfaces.floats import Floats
@@ -32,7 +32,7 @@ class Instant:
     time_s: Rows
     active: Rows
     sign: Rows
-    random: Rows | None
+    random: Rows
 
 
 class FaultBlock(Protocol):
@@ -60,15 +60,48 @@ class Fault(Protocol):
     `fddbench.faults.specification.FaultSpecification` brings all of this but the sizes and the block.
     """
 
-    kind: str
-    mode: str
-    sites: tuple[str, ...]
-    onset_s: float
-    end_s: float | None
-    correlation: str
-    delay_s: float
-    freeze: bool
-    random: Any
+    random: ClassVar[bool]
+    """Whether the kind draws a normal number at every sample."""
+
+    @property
+    def kind(self) -> str:
+        """Kind as result columns call it."""
+        ...
+
+    @property
+    def mode(self) -> str:
+        """``add`` or ``replace``."""
+        ...
+
+    @property
+    def sites(self) -> tuple[str, ...]:
+        """Faulty sites."""
+        ...
+
+    @property
+    def onset_s(self) -> float:
+        """First faulty sample of the first site [s]."""
+        ...
+
+    @property
+    def end_s(self) -> float | None:
+        """First healthy sample again [s]; None: never."""
+        ...
+
+    @property
+    def correlation(self) -> str:
+        """``identical``, ``independent`` or ``opposite``."""
+        ...
+
+    @property
+    def delay_s(self) -> float:
+        """Later onset from site to site [s]."""
+        ...
+
+    @property
+    def freeze(self) -> bool:
+        """Whether the signal stands at its last reading."""
+        ...
 
     def numbers(self, site: Site, uniform: Floats) -> Any:
         """Constants of the block on one site, a record of numbers or (n_cases,) arrays, in the unit of the site.

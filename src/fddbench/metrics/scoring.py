@@ -110,10 +110,9 @@ class Scoring:
     def step(
         self, x: ScoreState, c: ScoreConstants, n: Nothing, verdict: Verdict, sample: Row, alive: Row
     ) -> tuple[ScoreState, Row]:
-        """Score after one more sample, and the number of declared sites at this one; flights that have departed or ended
-        keep their score.
+        """Score after one more sample, and the number of declared sites at this one.
 
-        `verdict` has a row for every site of the benchmark, and an alarm.
+        Flights that have departed or ended keep their score. `verdict` has a row for every site of the benchmark, and an alarm.
         """
         del n
         declared = verdict.declared * 1.0  # a plug-in may declare with booleans, whose sum would be a logical or

@@ -17,10 +17,13 @@ def flown_sentence(rows: pd.DataFrame) -> str:
     """How many flights, hours, detectors and failures."""
     if rows.empty:
         return "No flight: the table of results is empty."
-    flights = rows.groupby("case", sort=False).agg(
-        ok=("status", lambda status: bool(np.all(np.asarray(status == "ok", dtype=bool)))),
-        infeasible=("status", lambda status: bool(np.any(np.asarray(status == "infeasible", dtype=bool)))),
-        flight_s=("flight_s", "max"),
+    # plain truth values first: pandas 2 casts what a function makes of text back to text
+    fates = {fate: np.asarray(rows["status"] == fate, dtype=bool) for fate in ("ok", "infeasible")}
+    flights = (
+        rows[["case", "flight_s"]]
+        .assign(**fates)
+        .groupby("case", sort=False)
+        .agg(ok=("ok", "all"), infeasible=("infeasible", "any"), flight_s=("flight_s", "max"))
     )
     hours = float(flights["flight_s"].sum()) / 3600.0
     flown, infeasible = int(flights["ok"].sum()), int(flights["infeasible"].sum())

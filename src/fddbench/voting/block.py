@@ -5,7 +5,6 @@ from typing import Any
 from fddbench.blocks.block import NO_DRAWS, NOTHING
 from fddbench.blocks.drawn import Draws
 from fddbench.blocks.layout import Layout, Nothing, Row, Rows
-from fddbench.interfaces import Voter
 
 __all__ = ["VoterBlock"]
 
@@ -23,7 +22,7 @@ class VoterBlock:
     draws: Draws[Any] = NO_DRAWS
 
     def __init__(self, voter: Any) -> None:
-        self.voter: Voter | Any = voter
+        self.voter = voter
         self.states: Layout[Any] = getattr(voter, "states", NOTHING)
         self.keeps = self.states.size > 0
 

@@ -35,7 +35,7 @@ class EngineState:
 
 @record
 class EngineLoopConstants:
-    """Matrices, breakpoints of the three inputs ([s], [-]; input after input), sigma of the disturbances [-], and the faults."""
+    """Matrices; breakpoints of the inputs ([s], [-]), input after input; sigma of the disturbances [-]; the faults."""
 
     engine: plant.EngineConstants
     knots_s: Rows

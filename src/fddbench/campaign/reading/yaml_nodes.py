@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -92,11 +93,33 @@ class _Reader:
 
     def _events(self) -> Iterator[Any]:
         try:
-            yield from yaml.parse(self.text, Loader=_LOADER)
+            yield from self._shallow(self.text)
         except yaml.MarkedYAMLError as error:
+            self._deep_before(error)
             refuse([*self.mistakes, self._syntax(error)])
         except (yaml.YAMLError, UnicodeError, ValueError) as error:
             refuse([*self.mistakes, Mistake(f"{self.name}:1:1", f"not valid YAML: {error}")])
+
+    def _shallow(self, text: str) -> Iterator[Any]:
+        """Events of a text as long as it is not nested too deeply, in keys as well as in values."""
+        depth = -1  # the outermost block is level 0
+        for event in yaml.parse(text, Loader=_LOADER):
+            depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
+            if depth > _MAX_DEPTH:
+                self._refuse(event, f"nested deeper than {_MAX_DEPTH} levels; a campaign needs six")
+                refuse(self.mistakes)
+            yield event
+
+    def _deep_before(self, error: yaml.MarkedYAMLError) -> None:
+        """Refuse what is nested too deeply before an error.
+
+        PyYAML reads ahead of its events and newer ones have a limit of their own, so it may complain of depth, or of what
+        comes later, before our limit is seen; its words and its place would then depend on its version.
+        """
+        mark: Any = error.problem_mark or error.context_mark
+        with suppress(yaml.YAMLError, UnicodeError, ValueError):
+            for _ in self._shallow(self.text[: mark.index]):
+                pass
 
     def _syntax(self, error: yaml.MarkedYAMLError) -> Mistake:
         mark: Any = error.problem_mark or error.context_mark
@@ -114,9 +137,6 @@ class _Reader:
         self.mistakes.append(Mistake(self.where(event.start_mark), message))
 
     def _value(self, event: Any, address: Address) -> Any:
-        if len(address) > _MAX_DEPTH:
-            self._refuse(event, f"nested deeper than {_MAX_DEPTH} levels; a campaign needs six")
-            refuse(self.mistakes)
         self.values[address] = self.where(event.start_mark)
         if isinstance(event, yaml.AliasEvent) or event.anchor is not None:
             if not self.shared:

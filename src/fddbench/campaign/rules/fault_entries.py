@@ -4,7 +4,7 @@ import json
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 from pydantic import ValidationError
 
@@ -82,8 +82,8 @@ def _read_fault(
 
 def _own_kind(model: type[FaultSpecification]) -> dict[str, str]:
     """The name by which a model knows itself, for kinds whose file has another."""
-    choices = getattr(model.model_fields["kind"].annotation, "__args__", ())
-    return {"kind": choices[0]} if len(choices) == 1 else {}
+    own = get_args(model.model_fields["kind"].annotation)
+    return {"kind": str(own[0])} if own else {}
 
 
 def _units(entry: dict[str, Any], sites: Sequence[Site]) -> list[str]:
