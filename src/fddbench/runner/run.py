@@ -185,4 +185,5 @@ def _provenance(campaign: Campaign) -> dict[str, object]:
         campaign_sha256=campaign.sha256,
         designs_sha256={design.name: design.sha256 for design in campaign.designs},
         seed=campaign.seed,
+        files=campaign.files(),
     )
