@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fddbench.errors import FddbenchError, ResultsError
+from fddbench.errors import FddbenchError
 
 if TYPE_CHECKING:
     from fddbench.runner.assembly import Assembly
@@ -18,22 +18,21 @@ def run(args: argparse.Namespace) -> int:
 
     Goes on where an earlier run of the same campaign stopped. Ctrl-C stops after saving what is finished.
     """
-    from fddbench.campaign.load import read_campaign
+    from fddbench.api import campaigns
     from fddbench.cli.progress import shown
-    from fddbench.runner.run import run_campaign
 
-    campaign = read_campaign(args.campaign, args.overrides)
-    folder = args.out or Path("results") / campaign.name
+    campaign = campaigns.read(args.campaign, args.overrides)
     with shown(campaign.name, quiet=args.quiet) as progress:
-        report = run_campaign(
+        report = campaigns.run(
             campaign,
-            folder,
+            args.out,
             jobs=args.jobs,
             fresh=args.fresh,
             backend=args.backend,
             progress=progress,
             notice=lambda text: print(f"fddbench: {text}", file=sys.stderr),
         )
+    folder = report.folder
     if report.interrupted:
         done = report.continued + report.flights
         print(
@@ -65,18 +64,9 @@ def _summary(folder: Path) -> None:
 
 def report(args: argparse.Namespace) -> int:
     """Write the page of a folder of results: one HTML file that needs no network."""
-    from fddbench.cli.report_data import report_data
-    from fddbench.reporting.page import write_page
+    from fddbench.api.pages import report as write
 
-    if not args.folder.is_dir():
-        raise ResultsError(f"{args.folder} is no folder; name one that `fddbench run` wrote")
-    output = args.output or args.folder / "report.html"
-    data = report_data(args.folder)
-    try:
-        write_page(data, output)
-    except OSError as error:
-        raise FddbenchError(f"cannot write {output}: {error.strerror}; name another file with --output") from error
-    print(output)
+    print(write(args.folder, args.output))
     return 0
 
 
@@ -111,7 +101,7 @@ def _one_detector(design: str, campaign: Path | None) -> "Assembly":
     """Assembly of a campaign with one detector; without a campaign the first shipped one whose benchmark feeds it."""
     from fddbench import gallery
     from fddbench.campaign.load import read_campaign
-    from fddbench.runner.assembly import assemble
+    from fddbench.runner.assembling import assemble
 
     shipped = [Path("smoke"), *(Path(path.stem) for path in sorted(gallery.folder("campaigns").glob("*.yaml")))]
     first: FddbenchError | None = None
@@ -129,7 +119,7 @@ def check(args: argparse.Namespace) -> int:
     from fddbench.blocks import llvm
     from fddbench.campaign.check import describe
     from fddbench.campaign.load import read_campaign
-    from fddbench.runner.assembly import assemble
+    from fddbench.runner.assembling import assemble
 
     campaign = read_campaign(args.campaign, args.overrides)
     plan = assemble(campaign).plan

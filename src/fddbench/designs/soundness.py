@@ -1,7 +1,6 @@
 """Whether what `from_design` gave is a detector, before anything is flown with it."""
 
 import pickle
-import traceback
 from types import SimpleNamespace
 from typing import Any
 
@@ -9,7 +8,7 @@ import numpy as np
 
 from fddbench.blocks.layout import Layout, Nothing
 from fddbench.designs.adapted import Adapted
-from fddbench.errors import reason_of
+from fddbench.errors import place_of, reason_of
 from fddbench.interfaces import Bus
 
 __all__ = ["unsound"]
@@ -57,14 +56,8 @@ def _tried(detector: Any, bus: Bus) -> str:
                 state, _ = adapted.step(state, Nothing(), normals, SimpleNamespace(**measured))
                 adapted.states.check(state, 2)
             except (Exception, SystemExit) as error:
-                return f"its step raised {reason_of(error)}{_place(error)}"
+                return f"its step raised {reason_of(error)}{place_of(error)}"
     return ""
-
-
-def _place(error: BaseException) -> str:
-    """Line of the user's code that raised, in brackets."""
-    frames = [f for f in traceback.extract_tb(error.__traceback__) if "fddbench/" not in f.filename.replace("\\", "/")]
-    return f" ({frames[-1].filename}:{frames[-1].lineno})" if frames else ""
 
 
 def _fingerprint(detector: Any) -> bytes | None:

@@ -19,6 +19,8 @@ _WRITTEN = ("campaign.yaml", "detectors", "manifest.jsonl", _PROVENANCE, "rows",
 _OURS = (*_WRITTEN, ".lock", ".pid")
 _LEFT = re.compile(r"\..+\.[0-9]+\.tmp")
 """What a crash in the middle of a write leaves behind."""
+_PLUGIN = re.compile(r"[A-Za-z_][A-Za-z0-9_-]*(\.[A-Za-z0-9_-]+)*")
+"""Name of a file of a plug-in beside a campaign; never a way out of the folder."""
 
 
 def claim(folder: Path, *, files: Mapping[str, bytes], provenance: Mapping[str, object], fresh: bool) -> bool:
@@ -79,7 +81,7 @@ def _carried(folder: Path) -> set[str]:
         listed = provenance_of(folder).get("files")
     except ResultsError:
         return set()
-    return {Path(name).parts[0] for name in listed if not Path(name).is_absolute()} if isinstance(listed, dict) else set()
+    return {name for name in listed if _PLUGIN.fullmatch(name)} if isinstance(listed, dict) else set()
 
 
 def _put_back(folder: Path, files: Mapping[str, bytes]) -> None:

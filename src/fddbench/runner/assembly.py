@@ -1,4 +1,4 @@
-"""A campaign made ready to fly: its closed loop, its detectors, and batches of cases with all their constants."""
+"""What flies the cases of a campaign: its closed loop, its detectors, and batches of cases with all their constants."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -10,15 +10,13 @@ import numpy.typing as npt
 from fddbench.blocks import philox
 from fddbench.blocks.consumers import fault_number
 from fddbench.blocks.drawn import Draws
-from fddbench.campaign.meaning import Campaign
-from fddbench.campaign.plan import Plan, PlannedScenario, plan
+from fddbench.campaign.plan import Plan, PlannedScenario
 from fddbench.designs.adapted import Adapted
-from fddbench.designs.building import build_detectors
 from fddbench.faults.timing import first_samples, last_sample
-from fddbench.interfaces import FlightFaults, Flights, Floats, Loop, Options
+from fddbench.interfaces import FlightFaults, Flights, Floats, Loop
 from fddbench.metrics.scoring import NEVER, EventTimes, Scoring
 
-__all__ = ["BEFORE_START", "Assembly", "Batch", "assemble", "has_events"]
+__all__ = ["BEFORE_START", "Assembly", "Batch", "has_events"]
 
 Cases = npt.NDArray[np.int64]
 
@@ -192,36 +190,3 @@ class Assembly:
             events=events,
             n_cases=n_cases,
         )
-
-
-def loop_of(planned: Plan) -> Loop:
-    """Closed loop of a campaign's benchmark with its options."""
-    campaign = planned.campaign
-    return campaign.bench.loop(
-        Options(
-            chosen=campaign.chosen,
-            sample_s=campaign.sample_s,
-            substeps=campaign.substeps,
-            faults=tuple(scenario.faults for scenario in planned.scenarios),
-        )
-    )
-
-
-def assemble(campaign: Campaign) -> Assembly:
-    """Loop, detectors and scoring of a campaign.
-
-    Raises
-    ------
-    CampaignError
-        A design does not make a detector for this benchmark.
-    """
-    planned = plan(campaign)
-    loop = loop_of(planned)
-    n_events = max((len(s.faults) for s in planned.scenarios if has_events(s)), default=0)
-    found = build_detectors(campaign.designs, loop.bus)
-    return Assembly(
-        plan=planned,
-        loop=loop,
-        detectors={name: Adapted(detector, loop.bus) for name, detector in found.items()},
-        scoring=Scoring(len(loop.bus.sites), n_events),
-    )
