@@ -125,7 +125,7 @@ def alarm_rate(
 
 
 def _design_effect(d_g: Floats, t_g: Floats, flights: int) -> float:
-    """deff from alarms and time of each run."""
+    """Of alarms and time of each run, at least 1: what runs that alarm together or early take from the exposure."""
     n_runs, n_alarms = len(d_g), float(d_g.sum())
     if n_alarms == 0.0:
         return flights / n_runs
