@@ -6,6 +6,13 @@ from hypothesis import strategies as st
 from tests.metrics.independent import Flight
 
 SITES = ("r1", "r2", "r3")
+NEVER = float(2**53)
+
+
+def faulty_from_of(flight):
+    """First faulty sample of each site, `NEVER` for a healthy one."""
+    onsets = [(site, float(first)) for fault in flight.faults for site, first, _ in fault]
+    return [min([first for own, first in onsets if own == site], default=NEVER) for site in SITES]
 
 
 @st.composite

@@ -216,20 +216,21 @@ def _margins(flight):
 
 
 def _estimate(flight):
-    """Bias and rms of estimate minus truth over all estimated signals of the faulty sites together (a voted signal
-    counts for every fault), from 1 s after the detection to the last faulty sample of the flight; null when nothing was
-    found or nothing is left of the fault by then. Both in the unit of the estimate.
+    """Bias and rms of estimate minus truth, in the unit of the estimate.
+
+    Of each fault that was found: on its own sites that the detector estimates (or on the voted signal), from 1 s after
+    its detection to its end; all of these together. A fault declared before it began has no detection to count from.
     """
-    nothing = {"estimate_bias": None, "estimate_rms": None}
-    at = None if flight.k0 is None else judged(flight, flight.faults)[1]
-    if flight.estimate is None or at is None:
-        return nothing
-    stop = max(end(fault, flight.last) for fault in flight.faults)
-    signals = [name for name in flight.estimate if name not in flight.sites or name in flight.F(flight.k1)]
-    window = flight.samples(at + round(1.0 / flight.sample_s), stop)
-    errors = [flight.estimate[name][k] - flight.added[name][k] for name in signals for k in window]
+    errors = []
+    for fault in flight.faults if flight.estimate is not None else ():
+        at = found(flight, fault)
+        if at not in (None, BEFORE):
+            own = {site for site, *_ in fault}
+            signals = [name for name in flight.estimate if name in own or name not in flight.sites]
+            window = flight.samples(at + round(1.0 / flight.sample_s), end(fault, flight.last))
+            errors += [flight.estimate[name][k] - flight.added[name][k] for k in window for name in signals]
     if not errors:
-        return nothing
+        return {"estimate_bias": None, "estimate_rms": None}
     mean = sum(errors) / len(errors)
     return {"estimate_bias": mean, "estimate_rms": sqrt(sum(e * e for e in errors) / len(errors))}
 

@@ -153,6 +153,21 @@ def test_pooled_interval_holds_the_truth_as_often_as_promised(share, rho):
     assert _covered(share, rho) > 0.95 - 0.015
 
 
+@pytest.mark.parametrize(("level", "aircraft"), [(-4.0, 2.0), (0.0, 1.0), (3.0, 2.0)])
+def test_nine_scenarios_of_different_difficulty_and_aircraft_that_differ(level, aircraft):
+    """Logit of a row: that of its scenario, from two below the level to two above it, and that of its aircraft."""
+    rng = np.random.default_rng([9, round(level + 10)])
+    scenarios = level + np.linspace(-2.0, 2.0, ROWS)
+
+    def hits(campaigns, runs):
+        logit = scenarios + aircraft * rng.normal(size=(campaigns, runs, 1))
+        return rng.random(logit.shape) < 1.0 / (1.0 + np.exp(-logit))
+
+    truth = float(hits(1, 200_000).mean())
+    pooled = [korn_graubard(y, np.arange(RUNS), trials=ROWS) for y in hits(CAMPAIGNS, RUNS).sum(axis=2)]
+    assert np.mean([one.low <= truth <= one.high for one in pooled]) > 0.95 - 0.015
+
+
 def test_that_simulation_sees_what_the_plain_interval_gets_wrong():
     """Nine rows that fail together: 225 rows as if independent hold the truth in a third of the campaigns."""
     y = np.arange(RUNS + 1)

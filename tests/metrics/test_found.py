@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from tests.metrics import independent
-from tests.metrics.flights import SITES, flights, random_flights
+from tests.metrics.flights import SITES, faulty_from_of, flights, random_flights
 from tests.metrics.sequences import SEQUENCES
 from tests.metrics.test_sequences import flight_of
 
@@ -32,12 +32,8 @@ STATES = Layout(previous=3, alarm_before=0, by_sites=N_FAULTS, by_alarm=N_FAULTS
 
 def _constants(flight):
     """Rows of one flight, (n_rows,)."""
-    onsets = {
-        site: min(first for fault in flight.faults for own, first, _ in fault if own == site)
-        for site in flight.F(10**6)
-    }
     named = {
-        "faulty_from": np.array([float(onsets.get(site, NEVER)) for site in SITES]),
+        "faulty_from": np.array(faulty_from_of(flight)),
         "last_scored": np.array(float(flight.last)),
     }
     for j in range(N_FAULTS):

@@ -1,4 +1,23 @@
-"""False alarms per flight hour: alarms over an exposure that ends at the first alarm."""
+"""False alarms per flight hour: alarms over an exposure that ends at the first alarm.
+
+Of f distinct flights of G runs, run g has d_g alarms (at most one a flight) in t_g of healthy flight up to them;
+``D = sum d_g``, ``T = sum t_g``. D/T is the likelihood's maximum for a constant rate and flights that are watched until
+their first alarm. Its interval is Garwood's at the *effective* exposure::
+
+    deff = max(1, G/(G-1) sum (d_g - D/T t_g)^2 / D)    f/G where D = 0
+    deff = max(deff, f/G)                               where fewer than 3 runs have an alarm
+    k    = (t_(f-1) / t_(G-1))^2 / deff                 t: 1-a/2 quantiles of Student, a = 1 - confidence
+    low  = G(a/2; k D) / (k T),  high = G(1-a/2; k D + 1) / (k T)    G: quantiles of the gamma distribution
+
+The same run at four points is not four runs: without deff the interval covers down to 68 % there, and 80 % where alarms
+bunch early. Where the rate is not constant, D/T is the mean rate until the first alarm in flights of this length.
+
+References
+----------
+Garwood (1936), Fiducial limits for the Poisson distribution, Biometrika 28(3/4), 437-442.
+Cochran (1977), Sampling Techniques, 3rd edition, Wiley, chapter 6: the design effect of a ratio. Putting both together is
+ours.
+"""
 
 from dataclasses import dataclass, replace
 
@@ -47,18 +66,9 @@ class AlarmRate:
 def alarm_rate(
     alarms: npt.ArrayLike, time_s: npt.ArrayLike, runs: npt.ArrayLike, *, confidence: float = 0.95
 ) -> AlarmRate:
-    """Rate of false alarms of f distinct flights of G runs, with d_g alarms in t_g of run g; ``D = sum d_g``, ``T = sum t_g``.
+    """Rate of false alarms of distinct flights, with its interval by run; the formula is that of this module.
 
-    D/T is the likelihood's maximum for a constant rate and flights that are watched until their first alarm. Its
-    interval is Garwood's at the *effective* exposure::
-
-        deff = max(1, G/(G-1) sum (d_g - D/T t_g)^2 / D)    f/G where D = 0
-        deff = max(deff, f/G)                               where fewer than 3 runs have an alarm
-        k    = (t_(f-1) / t_(G-1))^2 / deff                 t: 1-a/2 quantiles of Student, a = 1 - confidence
-        low  = G(a/2; k D) / (k T),  high = G(1-a/2; k D + 1) / (k T)    quantiles of the gamma distribution
-
-    The same run at four points is not four runs: without `deff` the interval covers down to 68 % there, and 80 % where
-    alarms bunch early. Every flight alarms at sample 0: a count and no rate. One run: no interval.
+    Without exposure (every flight alarms at sample 0) a count and no rate. One run: a rate and no interval.
 
     Parameters
     ----------
@@ -82,12 +92,6 @@ def alarm_rate(
         Arrays of different lengths, a flight without a run, an alarm other than 0 or 1, or a time that is negative or
         not a number.
 
-    References
-    ----------
-    Garwood (1936), Fiducial limits for the Poisson distribution, Biometrika 28(3/4), 437-442.
-    Cochran (1977), Sampling Techniques, 3rd edition, Wiley, chapter 6: the design effect of a ratio. Putting both
-    together is ours.
-
     Examples
     --------
     Ten runs of 60 s, of which three alarm at 1 s:
@@ -108,14 +112,9 @@ def alarm_rate(
     by_run = sums_by_run(runs, alarms=d, time_s=t)
     d_g, t_g = by_run["alarms"], by_run["time_s"]
     n_alarms, n_runs, hours = float(d_g.sum()), len(d_g), float(t_g.sum()) / 3600.0
-    rate = AlarmRate(
-        alarms=int(n_alarms),
-        flights=len(d),
-        runs=n_runs,
-        exposure_h=hours,
-        per_hour=n_alarms / hours if hours else None,
-        share=korn_graubard(d, runs, confidence=confidence),
-    )
+    share, per_hour = korn_graubard(d, runs, confidence=confidence), n_alarms / hours if hours else None
+    counts = {"alarms": int(n_alarms), "flights": len(d), "runs": n_runs}
+    rate = AlarmRate(**counts, exposure_h=hours, per_hour=per_hour, share=share)
     if hours == 0.0 or n_runs < 2:
         return rate
     effect = _design_effect(d_g, t_g, len(d))
