@@ -78,3 +78,12 @@ def test_the_rate_is_inside_and_never_narrower_than_independent_flights(flights)
 def test_impossible_flights_are_refused(alarms, time_s, message):
     with pytest.raises(FddbenchError, match=message):
         alarm_rate(alarms, time_s, range(len(alarms)))
+
+
+@pytest.mark.parametrize(("alarming", "effect"), [(0, 4.0), (1, 4.0), (2, 4.0), (3, 1.0)])
+def test_alarms_in_fewer_than_three_runs_know_no_spread(alarming, effect):
+    """One of the four flights of a run alarms at its end: only three such runs tell that runs alarm independently."""
+    runs, flight = np.repeat(np.arange(10), 4), np.tile(np.arange(4), 10)
+    rate = alarm_rate((flight == 0) & (runs < alarming), [60.0] * 40, runs)
+    assert rate.design_effect == effect
+    assert rate.alarms == alarming
