@@ -5,7 +5,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from fddbench.blocks.operations import OPERATIONS
-from fddbench.blocks.program import Program, expand
+from fddbench.blocks.program import Program
+from fddbench.blocks.rewrite import expand
 
 __all__ = ["Cost", "cost"]
 
@@ -28,6 +29,9 @@ class Cost:
         Memory carried from sample to sample, in double precision.
     table_bytes : int
         Distinct numbers written in the step (gains, matrices, tables), in double precision.
+    by_block : mapping of str to mapping of str to int
+        `operations` of each block by its path, as ``Fused.LateralLoop.Observer``; what several blocks share counts where
+        it was traced first, and "" is what belongs to no block.
     """
 
     operations: Mapping[str, int]
@@ -35,6 +39,7 @@ class Cost:
     multiply_adds: int
     state_bytes: int
     table_bytes: int
+    by_block: Mapping[str, Mapping[str, int]]
 
 
 def cost(program: Program, state: str = "state") -> Cost:
@@ -56,7 +61,17 @@ def cost(program: Program, state: str = "state") -> Cost:
         multiply_adds=_multiply_adds(program),
         state_bytes=_DOUBLE * max(program.inputs.get(state, 0), 0),
         table_bytes=_DOUBLE * program.counts["literal"],
+        by_block=_by_block(program),
     )
+
+
+def _by_block(program: Program) -> dict[str, dict[str, int]]:
+    """Operations by block and name, blocks in the order in which they were traced."""
+    found: dict[str, Counter[str]] = {}
+    for node, origin in zip(program.nodes, program.origins, strict=False):
+        if node.arguments and origin is not None:
+            found.setdefault(origin.block, Counter())[node.op] += 1
+    return {block: dict(counted.most_common()) for block, counted in found.items()}
 
 
 def _flops(op: str, arguments: int) -> int:

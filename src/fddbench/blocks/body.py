@@ -6,7 +6,8 @@ from fddbench.blocks import draws, rings
 from fddbench.blocks.emit import Vectors
 from fddbench.blocks.operations import OPERATIONS
 from fddbench.blocks.philox import PER_DRAW
-from fddbench.blocks.program import Program, depends_only_on
+from fddbench.blocks.program import Program
+from fddbench.blocks.rewrite import depends_only_on
 from fddbench.blocks.schedule import LATENCIES, longest_first
 
 __all__ = ["Body", "Spec"]
@@ -102,7 +103,7 @@ class Body:
         op, arguments, literal = self.spec.program.nodes[j]
         o = self.out
         if op == "literal":
-            return o.number(literal)  # type: ignore[arg-type]
+            return o.number(literal)
         if op == "flag":
             return o.flag(bool(literal))
         if j not in self._names:
@@ -110,7 +111,7 @@ class Body:
                 name = self._load(str(self._slots[j]))
                 name = o.operation("ne", name, o.number(0.0)) if _boolean(op) else name
             elif op == "input":
-                name = self._input(*literal)  # type: ignore[misc]
+                name = self._input(*literal)
             elif j in self._reads:
                 name = self._load(self._place(self._reads[j]))
             else:
@@ -135,7 +136,7 @@ class Body:
     def _latency(self, node: int) -> int:
         """Cycles until a node's value can be used."""
         op, _, value = self.spec.program.nodes[node]
-        if op == "input" and value[0] == "uniforms":  # type: ignore[index]
+        if op == "input" and value[0] == "uniforms":
             return _DRAW
         return _LOAD if op == "input" or node in self._slots else LATENCIES.get(op, 2)
 

@@ -5,7 +5,8 @@ import numpy as np
 from fddbench.blocks.emit import Vectors
 from fddbench.blocks.graph import Graph
 from fddbench.blocks.philox import PER_DRAW, box_muller
-from fddbench.blocks.program import Program, expand
+from fddbench.blocks.program import Program
+from fddbench.blocks.rewrite import expand
 from fddbench.blocks.traced import Traced
 
 __all__ = ["keys", "uniform", "with_draws", "words"]

@@ -7,7 +7,8 @@ import numpy as np
 import numpy.typing as npt
 
 from fddbench.blocks.operations import OPERATIONS
-from fddbench.blocks.program import Program, depends_only_on, expand
+from fddbench.blocks.program import Program
+from fddbench.blocks.rewrite import depends_only_on, expand
 
 __all__ = ["Interpreter"]
 
@@ -72,7 +73,7 @@ class Interpreter:
             for j in order:
                 op, arguments, value = nodes[j]
                 if op == "input":
-                    name, row = value  # type: ignore[misc]
+                    name, row = value
                     values[j] = inputs[name][row] if self.program.inputs[name] else inputs[name]
                 elif not arguments:
                     values[j] = value

@@ -5,7 +5,7 @@ IEEE 754, so NumPy, LLVM at any width and C give the same bits. Only what a not-
 """
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
@@ -27,8 +27,8 @@ _BIASED_MAGIC = _MAGIC + 1023.0
 class Symbolic:
     """A value being traced; see `fddbench.blocks.traced`. Named blocks hand themselves over to it."""
 
-    def apply(self, name: str, arguments: tuple[Any, ...]) -> Any:
-        """Value of the operation called `name`, element by element."""
+    def apply(self, name: str, arguments: tuple[Any, ...], value: Hashable = None) -> Any:
+        """Value of the operation called `name`, element by element; `value` is what it needs beside its arguments."""
         raise NotImplementedError
 
 
@@ -107,9 +107,10 @@ class Operation:
     c : str
         C99 expression, ``{0}`` the first argument.
     numpy : callable or None
-        The same on arrays; None for leaves and composites (those are functions of ``blocks.functions``).
+        The same on arrays, the value of the node first where it has one; None for leaves, for composites (those are
+        functions of ``blocks.functions``) and for a repeat, which the interpreter runs itself.
     arguments, result : str
-        ``f`` float64, ``b`` boolean, one letter an argument.
+        ``f`` float64, ``b`` boolean, one letter an argument; ``r`` rows of float64, which only ``row`` takes.
     """
 
     meaning: str
@@ -119,6 +120,11 @@ class Operation:
     numpy: Callable[..., Any] | None
     arguments: str = ""
     result: str = "f"
+
+    @property
+    def composite(self) -> bool:
+        """Whether it is a function written in other operations."""
+        return self.flops < 0
 
 
 OPERATIONS: dict[str, Operation] = {

@@ -1,6 +1,6 @@
 """The value type that a step sees while it is traced: it answers NumPy's protocols and remembers what was done."""
 
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator
 from typing import Any
 
 import numpy as np
@@ -77,7 +77,7 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
     def lift(self, value: Any) -> "Traced":
         """A number, plain array or traced value as a traced value of this trace."""
         if isinstance(value, Traced):
-            return value
+            return value if value.graph is self.graph else self._adopted(value)
         array = np.asarray(value)
         if array.dtype.kind not in "bfiu":
             trouble(f"{type(value).__name__} {value!r} is no array of numbers", "pass numbers, arrays or traced values")
@@ -85,6 +85,11 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
         leaf: Any = self.graph.flag if boolean else self.graph.literal
         ids = np.array([leaf(x) for x in array.ravel().tolist()], dtype=np.int64).reshape(array.shape)
         return self.like(ids, boolean=boolean)
+
+    def _adopted(self, other: "Traced") -> "Traced":
+        """A value of another trace, where that is allowed."""
+        ids = [self.graph.adopt(other.graph, int(node)) for node in other.ids.ravel()]
+        return self.like(np.array(ids, dtype=np.int64).reshape(other.shape), boolean=other.boolean)
 
     def number(self) -> "Traced":
         """Itself, true and false as 1 and 0."""
@@ -98,17 +103,18 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
         return self if self.boolean else ufuncs.apply(np.not_equal, self, (self, 0.0))
 
     # --- operations ---
-    def apply(self, name: str, arguments: tuple[Any, ...]) -> Any:
-        """Operation `name` of the table on every element, operands broadcast as by NumPy."""
-        if self.graph.expand and OPERATIONS[name].numpy is None:
+    def apply(self, name: str, arguments: tuple[Any, ...], value: Hashable = None) -> Any:
+        """Operation `name` of the table on every element, operands broadcast as by NumPy; `value` as `Node` has it."""
+        if self.graph.expand and OPERATIONS[name].composite:
             return array_functions.definition(name)(*arguments)
         operation, lifted = OPERATIONS[name], [self.lift(argument) for argument in arguments]
         kinds = operation.arguments if operation.arity >= 0 else "f" * len(lifted)
-        if any(kind == "b" and not value.boolean for kind, value in zip(kinds, lifted, strict=True)):
+        if any(kind == "b" and not v.boolean for kind, v in zip(kinds, lifted, strict=True)):
             trouble(f"{name} needs true or false, got numbers", "compare first: (a > 0.5) & (b > 0.5)")
         operands = [v.number() if kind == "f" else v for kind, v in zip(kinds, lifted, strict=True)]
         columns = np.broadcast_arrays(*(operand.ids for operand in operands))
-        nodes = [self.graph.add(name, *row) for row in zip(*(c.ravel().tolist() for c in columns), strict=True)]
+        rows = zip(*(column.ravel().tolist() for column in columns), strict=True)
+        nodes = [self.graph.add(name, *row, value=value) for row in rows]
         return self.like(np.array(nodes, dtype=np.int64).reshape(columns[0].shape), boolean=operation.result == "b")
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **options: Any) -> Any:
