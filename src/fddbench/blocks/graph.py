@@ -45,12 +45,14 @@ class Graph:
 
     Attributes
     ----------
+    depth : int
+        How many traces it is inside of.
     origin : Origin or None
         Given to new nodes when it is not None, instead of looking for one.
     """
 
     def __init__(self, *, expand: bool = False, locate: bool = False) -> None:
-        self.expand = expand
+        self.expand, self.depth = expand, 0
         self.nodes: list[Node] = []
         self.origins: list[Origin | None] = []
         self.origin: Origin | None = None

@@ -7,11 +7,12 @@ from typing import Any, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from fddbench.blocks import draws, ir, llvm
-from fddbench.blocks.body import Spec
+from fddbench.blocks import draws, llvm
 from fddbench.blocks.interpreter import Interpreter
+from fddbench.blocks.lower import Spec, lower
 from fddbench.blocks.philox import normals
 from fddbench.blocks.program import Program
+from fddbench.blocks.targets.llvm import frame
 from fddbench.errors import FddbenchError
 
 __all__ = ["Addresses", "Compiled", "Flown", "Interpreted", "Kernel", "build"]
@@ -153,7 +154,7 @@ class Compiled:
     def text(self) -> str:
         """LLVM module of the kernel."""
         spec = Spec(program=draws.with_draws(self._program), streams=self._streams, recorded=self._recorded)
-        return ir.write(spec, self.lanes, rounds=self._machine.rounds)
+        return frame.write(lower(spec), self.lanes, rounds=self._machine.rounds)
 
     def fly(
         self, state: Floats, constants: Floats, samples: Integers, addresses: Addresses, *, first: int, end: int

@@ -13,8 +13,11 @@ from typing import Any, ParamSpec, TypeVar
 import numpy as np
 
 from fddbench.blocks.layout import Rows
+from fddbench.blocks.table import Table
 
-__all__ = ["OPERATIONS", "Operation", "Symbolic", "exponent", "fraction", "named", "pick", "power_of_two"]
+__all__ = [
+    "OPERATIONS", "Operation", "Symbolic", "exponent", "fraction", "gather", "locate", "named", "pick", "power_of_two",
+]  # fmt: skip
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -92,6 +95,31 @@ def pick(index: Rows, *rows: Rows) -> Rows:
     return chosen
 
 
+def locate(knots: Table, x: Rows) -> Rows:
+    """How many of the rising knots lie at or below x, (n_cases,); none for a not-a-number.
+
+    >>> locate(Table.of([0.0, 1.0, 5.0]), np.array([-1.0, 1.0, 9.0, np.nan]))
+    array([0., 2., 3., 0.])
+    """
+    if isinstance(x, Symbolic):
+        return x.apply("locate", (x,), knots)
+    x = np.asarray(x, dtype=float)
+    return np.where(np.isnan(x), 0.0, np.searchsorted(knots.values, x, side="right"))
+
+
+def gather(table: Table, place: Rows) -> Rows:
+    """Entry of a table at a place, (n_cases,): the first or last one outside, the first one for a not-a-number.
+
+    >>> gather(Table.of([10.0, 11.0, 12.0]), np.array([1.0, -3.0, 7.0, np.nan]))
+    array([11., 10., 12., 10.])
+    """
+    if isinstance(place, Symbolic):
+        return place.apply("gather", (place,), table)
+    place = np.asarray(place, dtype=float)
+    inside = np.where(place > 0.0, np.minimum(place, float(len(table) - 1)), 0.0)
+    return table.values[inside.astype(np.int64)]
+
+
 @dataclass(frozen=True)
 class Operation:
     """One line of the table.
@@ -155,6 +183,12 @@ OPERATIONS: dict[str, Operation] = {
     "exponent": Operation("power of two of a", 1, 3, "fdd_exponent({0})", exponent, "f"),
     "power_of_two": Operation("two to the whole power a", 1, 2, "ldexp(1.0, (int){0})", power_of_two, "f"),
     "pick": Operation("argument number a of the rest", -1, 1, "fdd_pick({0}, {rest})", pick, "f"),
+    "locate": Operation(
+        "how many of the rising knots lie at or below a", 1, 4, "fdd_locate({table}, {0})", locate, "f"
+    ),
+    "gather": Operation("entry number a of a table", 1, 1, "{table}[fdd_index({0})]", gather, "f"),
+    "repeat": Operation("rows after a body has run many times", -1, 0, "{loop}({rest})", None, "", "r"),
+    "row": Operation("one row of a repeat", 1, 0, "{0}[{row}]", lambda number, rows: rows[number], "r"),
     "sin": Operation("sine of a [rad]", 1, -1, "fdd_sin({0})", None, "f"),
     "cos": Operation("cosine of a [rad]", 1, -1, "fdd_cos({0})", None, "f"),
     "exp": Operation("exponential of a", 1, -1, "fdd_exp({0})", None, "f"),
@@ -163,5 +197,5 @@ OPERATIONS: dict[str, Operation] = {
     "atan2": Operation("angle of the point (b, a) [rad]", 2, -1, "fdd_atan2({0}, {1})", None, "ff"),
     "asin": Operation("arc sine of a [rad]", 1, -1, "fdd_asin({0})", None, "f"),
 }
-"""The whole set. Table look-ups (``functions.interpolate``), ring buffers (``ring``) and constant matrix products
-(``linear.product``, ``@``) are made of these in a fixed order and are exported as such."""
+"""The whole set. Look-ups between knots that differ from case to case (``functions.interpolate``), ring buffers (``ring``)
+and constant matrix products (``linear.product``, ``@``) are made of these in a fixed order and are exported as such."""

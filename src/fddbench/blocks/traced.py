@@ -1,6 +1,6 @@
 """The value type that a step sees while it is traced: it answers NumPy's protocols and remembers what was done."""
 
-from collections.abc import Hashable, Iterator
+from collections.abc import Hashable, Iterable, Iterator
 from typing import Any
 
 import numpy as np
@@ -105,6 +105,9 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
     # --- operations ---
     def apply(self, name: str, arguments: tuple[Any, ...], value: Hashable = None) -> Any:
         """Operation `name` of the table on every element, operands broadcast as by NumPy; `value` as `Node` has it."""
+        root = _innermost(self, arguments)
+        if root is not self:
+            return root.apply(name, arguments, value)
         if self.graph.expand and OPERATIONS[name].composite:
             return array_functions.definition(name)(*arguments)
         operation, lifted = OPERATIONS[name], [self.lift(argument) for argument in arguments]
@@ -125,7 +128,7 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
             return array_functions.reduce_axis(self, array_functions.REDUCTIONS[ufunc], axis, keepdims=False)
         if method != "__call__" or any(value is not None for value in options.values()):
             trouble(f"np.{ufunc.__name__} with {method} {options or ''} cannot be traced", "use the plain call")
-        result = ufuncs.apply(ufunc, self, inputs)
+        result = ufuncs.apply(ufunc, _innermost(self, inputs), inputs)
         if out is None:
             return result
         if not isinstance(out[0], Traced):
@@ -139,7 +142,7 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
         if handler is None:
             trouble(f"np.{func.__name__} is not among the functions that can be traced",
                     array_functions.CURES.get(func, "write it with + - * / and np.where"))  # fmt: skip
-        return handler(self, *args, **kwargs)
+        return handler(_innermost(self, [*args, *kwargs.values()]), *args, **kwargs)
 
     # --- indexing ---
     def __getitem__(self, key: Any) -> "Traced":
@@ -223,6 +226,16 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
             "its numbers",
             "build arrays with np.stack or np.concatenate, look up with blocks.functions.interpolate, choose with np.where",
         )
+
+
+def _innermost(root: Traced, values: Iterable[Any]) -> Traced:
+    """Of the traced values the one of the innermost trace: inside a `repeat` those of outside are taken in, not the reverse."""
+    for value in values:
+        if isinstance(value, list | tuple):
+            root = _innermost(root, value)
+        elif isinstance(value, Traced) and value.graph.depth > root.graph.depth:
+            root = value
+    return root
 
 
 def _static(key: Any) -> Any:
