@@ -3,10 +3,30 @@
 import heapq
 from collections.abc import Callable, Iterable, Sequence
 
-__all__ = ["LATENCIES", "longest_first"]
+from fddbench.blocks.program import Program
 
-LATENCIES = {"add": 3, "sub": 3, "mul": 3, "div": 13, "sqrt": 20, "min": 5, "max": 5, "floor": 4, "rint": 4}
-"""Cycles until a result can be used, about those of today's processors; 2 where nothing is said."""
+__all__ = ["latency", "longest_first"]
+
+_LATENCIES = {
+    "add": 3, "sub": 3, "mul": 3, "div": 13, "sqrt": 20, "min": 5, "max": 5, "floor": 4, "rint": 4, "gather": 25, "locate": 30,
+}  # fmt: skip
+_DRAW, _LOAD, _OTHER = 60, 3, 2  # the ten rounds of Philox; a vector of the workspace; comparisons and selections
+
+
+def latency(program: Program, node: int, *, loaded: bool = False) -> int:
+    """Cycles until the result of a node can be used, about those of today's processors.
+
+    Parameters
+    ----------
+    loaded : bool
+        It has been computed before and is read from the workspace.
+    """
+    op, _, value = program.nodes[node]
+    if op == "input" and value[0] == "uniforms":
+        return _DRAW
+    if op == "repeat":
+        return int(value.count) * len(value.body.nodes)
+    return _LOAD if loaded or op == "input" else _LATENCIES.get(op, _OTHER)
 
 
 def longest_first(
