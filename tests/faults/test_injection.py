@@ -457,6 +457,11 @@ def test_a_drawn_phase_is_that_of_the_position_in_the_benchmark():
 
 def test_kinds_stand_in_the_same_order_whoever_names_them_first():
     """The order of the scenarios is no part of a result."""
+    plain = [Jam.in_unit("")(kind="jam", sites=("r1",), onset_s=0.2, amplitude_percent=1.0)]
+    again = [SignalFaults(SITES, "r_deg_s", [plain, *EVERY], T).slots[0].kinds for _ in range(3)]
+    assert [kind.__name__ for kind in again[0]].count("Jam") == 2
+    assert again[0] == again[1] == again[2]
+    assert again[0].index(type(plain[0])) < again[0].index(Jam)
     first, second = (SignalFaults(SITES, "r_deg_s", order, T) for order in (EVERY, EVERY[::-1]))
     assert first.slots[0].kinds == second.slots[0].kinds
     assert (first.states.names, first.constants.names) == (second.states.names, second.constants.names)
