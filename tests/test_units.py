@@ -87,10 +87,12 @@ def test_the_longest_suffix_names_the_unit(name, suffix, of):
 
 @pytest.mark.parametrize("name", ["furlong", "DEG", "deg/s ", "deg_s"])
 def test_an_unknown_unit_is_refused_with_all_known_ones(name):
-    expected = f"no unit is called {name!r}; known: {', '.join(map(repr, UNITS))}. A new one is a line in fddbench/units.py"
+    expected = (
+        f"no unit is called {name!r}; known: {', '.join(map(repr, UNITS))}. A new one is a line in fddbench/units.py"
+    )
     with pytest.raises(FddbenchError, match=f"^{re.escape(expected)}$"):
         unit(name)
 
 
 def test_degrees_and_radians():
-    assert (DEG_PER_RAD, RAD_PER_DEG) == (180.0 / np.pi, np.pi / 180.0)
+    assert (180.0 / np.pi, np.pi / 180.0) == (DEG_PER_RAD, RAD_PER_DEG)

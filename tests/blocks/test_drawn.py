@@ -44,7 +44,14 @@ def test_a_number_beyond_the_four_of_a_consumer_does_not_exist(draw):
 
 
 def test_streams_are_in_the_order_of_their_names_those_of_the_flight_first():
-    names = (Draw(65, stream="scenario"), Draw(1, 1), Draw(64, stream="scenario"), Draw(0), Draw(1, 0), Draw(65, 1, stream="scenario"))
+    names = (
+        Draw(65, stream="scenario"),
+        Draw(1, 1),
+        Draw(64, stream="scenario"),
+        Draw(0),
+        Draw(1, 0),
+        Draw(65, 1, stream="scenario"),
+    )
     assert Draws(names).streams == ((1, "flight"), (0, "flight"), (65, "scenario"), (64, "scenario"))
 
 
@@ -67,7 +74,9 @@ def test_whatever_is_drawn_is_the_number_of_its_address(addresses):
     code = {"flight": 0.0, "scenario": 1000.0}
     rows = [[code[stream] + 10.0 * consumer + place] for consumer, stream in draws.streams for place in range(4)]
     found = draws.unpack(np.array(rows).reshape(draws.size, 1))
-    assert [row[0] for row in found] == [code[stream] + 10.0 * consumer + place for consumer, place, stream in addresses]
+    assert [row[0] for row in found] == [
+        code[stream] + 10.0 * consumer + place for consumer, place, stream in addresses
+    ]
 
 
 def test_what_draws_nothing_has_no_streams():
@@ -92,8 +101,18 @@ def test_frozen_numbers_of_fault_slots():
 
 
 def test_frozen_numbers_of_everything_else():
-    assert (consumers.UNCERTAINTY_0, consumers.DISTURBANCE, consumers.DISPERSION, consumers.DETECTOR_0) == (4, 10, 256, 4096)
-    assert (consumers.FAULT_SLOT_0, consumers.FAULT_SLOTS, consumers.MAX_ATTEMPTS, consumers.MOST_SITES) == (64, 32, 256, 256)
+    assert (consumers.UNCERTAINTY_0, consumers.DISTURBANCE, consumers.DISPERSION, consumers.DETECTOR_0) == (
+        4,
+        10,
+        256,
+        4096,
+    )
+    assert (consumers.FAULT_SLOT_0, consumers.FAULT_SLOTS, consumers.MAX_ATTEMPTS, consumers.MOST_SITES) == (
+        64,
+        32,
+        256,
+        256,
+    )
 
 
 def test_no_two_have_the_same_number():

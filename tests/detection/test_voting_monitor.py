@@ -13,7 +13,6 @@ from fddbench.interfaces import Bus, Site
 from fddbench.voting.median import Median
 
 
-
 def sites(n):
     return tuple(Site(name=f"r{i + 1}", signal="r_deg_s", row=i, unit_name="deg/s", admissible=40.0) for i in range(n))
 

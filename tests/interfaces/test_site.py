@@ -10,7 +10,9 @@ from fddbench.interfaces.site import limit_s
 
 
 def site(name, signal="r_deg_s", limits_s=(120.0, 0.36), **more):
-    return Site(**{"name": name, "signal": signal, "unit_name": "deg/s", "admissible": 40.0, "limits_s": limits_s, **more})
+    return Site(
+        **{"name": name, "signal": signal, "unit_name": "deg/s", "admissible": 40.0, "limits_s": limits_s, **more}
+    )
 
 
 RATES = [site(f"r{i}") for i in (1, 2, 3)]
@@ -51,4 +53,9 @@ def test_the_unit_of_a_site_is_one_of_the_table():
 
 def test_what_a_site_need_not_say():
     plain = Site(name="x", signal="x", unit_name="", admissible=1.0)
-    assert (plain.row, plain.kind, plain.stops, tuple(plain.limits_s)) == (0, "sensor", (float("-inf"), float("inf")), ())
+    assert (plain.row, plain.kind, plain.stops, tuple(plain.limits_s)) == (
+        0,
+        "sensor",
+        (float("-inf"), float("inf")),
+        (),
+    )

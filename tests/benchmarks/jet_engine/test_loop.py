@@ -99,7 +99,14 @@ def test_random_numbers_have_their_frozen_addresses(bench):
     drawn[np.arange(8), np.arange(8)] = -0.5  # case i has row i reversed; case 8 is the reference
     _, seen = loop.step(state, constants, loop.draws.unpack(drawn), 0.0)
     readers = {name: np.flatnonzero(value != value[8]).tolist() for name, value in seen.truth.items()}
-    assert readers == {"d_true_1": [0], "d_true_2": [1], "d_true_3": [2], "f_true_1": [4], "f_true_2": [5], "f_true_3": [6]}
+    assert readers == {
+        "d_true_1": [0],
+        "d_true_2": [1],
+        "d_true_3": [2],
+        "f_true_1": [4],
+        "f_true_2": [5],
+        "f_true_3": [6],
+    }
 
 
 def test_sites_choices_and_limits(bench):
