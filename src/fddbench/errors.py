@@ -4,6 +4,7 @@ Every message names the place, what was received, what is allowed and what to do
 ``__init__`` of their own, because only those survive the way back from a worker process.
 """
 
+import traceback
 from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -16,6 +17,7 @@ __all__ = [
     "ResultsError",
     "UnknownNameError",
     "did_you_mean",
+    "place_of",
     "reason_of",
 ]
 
@@ -45,6 +47,12 @@ def reason_of(error: BaseException) -> str:
         text = "(its text cannot be made)"
     whole = f"{type(error).__name__}: {text}" if text else type(error).__name__
     return whole if len(whole) <= _LONGEST else whole[: _LONGEST - 3] + "..."
+
+
+def place_of(error: BaseException) -> str:
+    """Innermost line of foreign code that an exception passed, in brackets; "" where it passed none."""
+    frames = [f for f in traceback.extract_tb(error.__traceback__) if "/fddbench/" not in f.filename.replace("\\", "/")]
+    return f" ({frames[-1].filename}:{frames[-1].lineno})" if frames else ""
 
 
 class FddbenchError(Exception):

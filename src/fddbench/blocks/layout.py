@@ -164,6 +164,8 @@ class Layout(Generic[T]):
         """Leaves in declared order, found by their paths: another record may have the same ones in another order."""
         given = dict(leaves(values))
         if given.keys() != self.counts.keys():
+            if "" in given:
+                raise TypeError(f"need a record of the fields {list(self.counts)}, got {type(values).__name__}")
             # lists, not sets: the text becomes part of a row, which is the same every time
             missing, unknown = [p for p in self.counts if p not in given], [p for p in given if p not in self.counts]
             raise TypeError(f"need exactly the fields {list(self.counts)}, {missing=}, {unknown=}")

@@ -3,7 +3,7 @@
 from typing import ClassVar, Literal
 
 from fddbench.blocks.layout import Rows, record
-from fddbench.faults.specification import FaultSpecification, Finite
+from fddbench.faults.specification import WithAmplitude
 from fddbench.interfaces import Floats, Site
 
 __all__ = ["Bias", "Offset"]
@@ -21,7 +21,7 @@ class Offset:
         return self.offset
 
 
-class Bias(FaultSpecification):
+class Bias(WithAmplitude):
     """A constant added to the sensor.
 
     Attributes
@@ -35,8 +35,6 @@ class Bias(FaultSpecification):
 
     kind: Literal["bias"]
     mode: Literal["add"] = "add"
-    amplitude_percent: Finite | None = None
-    amplitude: Finite | None = None
 
     def numbers(self, site: Site, uniform: Floats) -> Offset:
         """Offset of the given size."""

@@ -3,13 +3,13 @@
 from typing import ClassVar, Literal
 
 from fddbench.faults.bias import Offset
-from fddbench.faults.specification import FaultSpecification, Finite
+from fddbench.faults.specification import WithAmplitude
 from fddbench.interfaces import Floats, Site
 
 __all__ = ["Jam"]
 
 
-class Jam(FaultSpecification):
+class Jam(WithAmplitude):
     """A constant added to the sensor (the published case), or the sensor standing at a value.
 
     Attributes
@@ -24,8 +24,6 @@ class Jam(FaultSpecification):
     profile = Offset
 
     kind: Literal["jam"]
-    amplitude_percent: Finite | None = None
-    amplitude: Finite | None = None
 
     def numbers(self, site: Site, uniform: Floats) -> Offset:
         """Offset, or none beside the held value."""

@@ -6,7 +6,7 @@ import numpy as np
 
 from fddbench.blocks.layout import Layout, Rows, record
 from fddbench.faults.profile import constants_of
-from fddbench.faults.specification import FaultSpecification, Finite, Positive
+from fddbench.faults.specification import Positive, WithAmplitude
 from fddbench.interfaces import Floats, Instant, Site
 
 __all__ = ["Nrz"]
@@ -48,7 +48,7 @@ class NrzBlock:
         return BitState(bit=bit), reading + now.sign * (c.size * bit)
 
 
-class Nrz(FaultSpecification):
+class Nrz(WithAmplitude):
     """Random plus or minus a size, drawn anew every bit (a corrupted digital word).
 
     Attributes
@@ -63,8 +63,6 @@ class Nrz(FaultSpecification):
     random: ClassVar[bool] = True
 
     kind: Literal["nrz"]
-    amplitude_percent: Finite | None = None
-    amplitude: Finite | None = None
     bit_s: Positive = 0.05
 
     def numbers(self, site: Site, uniform: Floats) -> Bits:

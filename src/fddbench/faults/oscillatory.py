@@ -7,7 +7,7 @@ from pydantic import model_validator
 
 from fddbench.blocks.functions import sin
 from fddbench.blocks.layout import Rows, record
-from fddbench.faults.specification import FaultSpecification, Finite, one_of
+from fddbench.faults.specification import Finite, WithAmplitude, one_of
 from fddbench.interfaces import Floats, Site
 
 __all__ = ["Oscillatory"]
@@ -26,7 +26,7 @@ class Sine:
         return self.amplitude * sin(self.frequency_rad_s * time_s + self.phase_rad)
 
 
-class Oscillatory(FaultSpecification):
+class Oscillatory(WithAmplitude):
     """A sine added to the sensor (liquid), or put in its place (solid).
 
     Attributes
@@ -45,8 +45,6 @@ class Oscillatory(FaultSpecification):
     profile = Sine
 
     kind: Literal["oscillatory"]
-    amplitude_percent: Finite | None = None
-    amplitude: Finite | None = None
     frequency_hz: Finite | None = None
     frequency_rad_s: Finite | None = None
     phase_rad: Finite | None = None

@@ -16,7 +16,7 @@ from fddbench.faults.profile import Profile, ProfileBlock
 from fddbench.interfaces import FaultBlock, Floats, Site
 from fddbench.units import UNITS, unit
 
-__all__ = ["FaultSpecification", "Finite", "NonNegative", "Positive", "one_of"]
+__all__ = ["FaultSpecification", "Finite", "NonNegative", "Positive", "WithAmplitude", "one_of"]
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 NonNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
@@ -144,6 +144,19 @@ class FaultSpecification(BaseModel):
         if cls.profile is None:
             raise FddbenchError(f"the fault {cls.__name__} has neither a profile nor a block of its own")
         return ProfileBlock(cls.profile, n_sites, sample_s)
+
+
+class WithAmplitude(FaultSpecification):
+    """A fault whose size is an amplitude, of the admissible range [%] or in the unit of the sites; give one.
+
+    Attributes
+    ----------
+    amplitude_percent, amplitude : float
+        The amplitude.
+    """
+
+    amplitude_percent: Finite | None = None
+    amplitude: Finite | None = None
 
 
 @cache

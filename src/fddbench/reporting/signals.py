@@ -79,10 +79,10 @@ def signal_panels(signals: Mapping[str, Floats]) -> list[list[str]]:
     for name in signals:
         if "threshold" in name and panels:
             panels[-1].append(name)
-        elif "threshold" not in name and name not in ("n_declared", "ratio"):
+        elif "threshold" not in name and name not in ("n_declared", "residual"):
             panels.append([name])
     if not any(len(panel) > 1 for panel in panels):
-        panels.insert(0, ["ratio"])
+        panels.insert(0, ["residual"])
     return [*panels[:_MOST_PANELS], ["n_declared"]]
 
 
@@ -120,7 +120,7 @@ def _draw_panel(axes: "Axes", recording: Recording, detector: str, names: list[s
         axes.plot(time_s, values[:, case : case + 1], lw=1.5, **style)
         if threshold and np.nanmin(signals[names[0]][kept], initial=0.0) < 0.0:
             axes.plot(time_s, -values[:, case : case + 1], lw=1.5, **style)
-    if names == ["ratio"]:
+    if names == ["residual"]:
         axes.axhline(1.0, color=INK, ls=(0, (4, 2)), lw=1.2)
     if names == ["n_declared"]:
         top = np.nanmax(signals["n_declared"], initial=1.0)

@@ -19,6 +19,8 @@ _WRITTEN = ("campaign.yaml", "detectors", "manifest.jsonl", _PROVENANCE, "rows",
 _OURS = (*_WRITTEN, ".lock", ".pid")
 _LEFT = re.compile(r"\..+\.[0-9]+\.tmp")
 """What a crash in the middle of a write leaves behind."""
+_PLUGIN = re.compile(r"[A-Za-z_][A-Za-z0-9_-]*(\.[A-Za-z0-9_-]+)*")
+"""Name of a file of a plug-in beside a campaign; never a way out of the folder."""
 
 
 def claim(folder: Path, *, files: Mapping[str, bytes], provenance: Mapping[str, object], fresh: bool) -> bool:
@@ -62,7 +64,8 @@ def refuse_foreign(folder: Path) -> None:
     """
     if folder.is_dir():
         names = sorted(path.name for path in folder.iterdir())
-        foreign = [name for name in names if name not in _OURS and not _LEFT.fullmatch(name)]
+        ours = {*_OURS, *_carried(folder)}
+        foreign = [name for name in names if name not in ours and not _LEFT.fullmatch(name)]
         if foreign:
             more = ", ..." if len(foreign) > 3 else ""
             raise ResultsError(
@@ -70,6 +73,15 @@ def refuse_foreign(folder: Path) -> None:
             )
     elif folder.exists():
         raise ResultsError(f"{folder} is a file, no folder of results; name another with --out")
+
+
+def _carried(folder: Path) -> set[str]:
+    """Names in the folder of what the campaign's own kinds came from, as its provenance lists them."""
+    try:
+        listed = provenance_of(folder).get("files")
+    except ResultsError:
+        return set()
+    return {name for name in listed if _PLUGIN.fullmatch(name)} if isinstance(listed, dict) else set()
 
 
 def _put_back(folder: Path, files: Mapping[str, bytes]) -> None:
@@ -143,7 +155,7 @@ def locked(folder: Path) -> Iterator[None]:
 
 def _clear(folder: Path) -> None:
     """Remove what fddbench writes, and nothing else; a link is removed, not what it points to."""
-    for name in _WRITTEN:
+    for name in (*_carried(folder), *_WRITTEN):
         path = folder / name
         if path.is_dir() and not path.is_symlink():
             shutil.rmtree(path)

@@ -5,7 +5,7 @@ import pytest
 
 from fddbench.benchmarks.jet_engine.plant import CONSTANTS, MATRICES, closed, constants
 from fddbench.benchmarks.jet_engine.uncertainty import N_NORMALS, SETS
-from fddbench.design.systems import UncertainPlant
+from fddbench.systems import UncertainPlant
 
 NORMALS = np.random.default_rng(1).standard_normal((N_NORMALS, 20_000))
 

@@ -33,7 +33,7 @@ def with_filter(table, first):
 def test_literature_printed_linear_gain_follows_from_l(design, j):
     """``Gl_top = A12 - A11 L + L A22s`` and ``Gl_low = A22 - A21 L - A22s``, table by table, to 8e-5."""
     gains = design()
-    A = with_filter(lateral_lpv().A[j, :, :, 0], j == 0)
+    A = with_filter(lateral_lpv().tables["A"][j, :, :, 0], j == 0)
     A11, A12, A21, A22 = A[R, R], A[R, REST], A[REST, R], A[np.ix_(REST, REST)]
     L, A22s = np.array(gains.l_row), np.diag(ERROR_POLES) * (j == 0)
     expected = np.zeros((5, 4))
@@ -123,7 +123,7 @@ class ByHand:
     def step(self, y, r, u, rho):
         model, g, T = lateral_lpv(), self.g, self.T
         weights = np.array([1.0, *rho])
-        A = with_filter(np.tensordot(weights, model.A[..., 0], 1), True)
+        A = with_filter(np.tensordot(weights, model.tables["A"][..., 0], 1), True)
         A[4, 3], A[4, 4] = g.filter_pole_1_s, -g.filter_pole_1_s
         B = np.vstack([np.tensordot(weights, model.B[..., 0], 1), np.zeros(13)])
         Gl = np.tensordot(weights, np.array(g.linear_gain), 1)

@@ -1,6 +1,7 @@
 """Faults of a campaign file, each checked by the class that is registered for its kind or stands in a file beside it."""
 
 import json
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -17,6 +18,7 @@ from fddbench.interfaces import Site
 
 __all__ = ["ReadFaults", "read_faults"]
 
+_WORD = re.compile(r"([A-Z])")
 _SIZES = ("amplitude", "rate", "variance", "hold_value")
 
 
@@ -81,9 +83,9 @@ def _read_fault(
 
 
 def _own_kind(model: type[FaultSpecification]) -> dict[str, str]:
-    """The name by which a model knows itself, for kinds whose file has another."""
+    """The name by which a model knows itself, for kinds whose file has another: its only choice, else that of its class."""
     own = get_args(model.model_fields["kind"].annotation)
-    return {"kind": str(own[0])} if own else {}
+    return {"kind": str(own[0]) if own else _WORD.sub(r"_\1", model.__name__).lower().lstrip("_")}
 
 
 def _units(entry: dict[str, Any], sites: Sequence[Site]) -> list[str]:
