@@ -27,7 +27,7 @@ def _faults(state: Any, constants: Any, normals: Any, sample: Any) -> dict[str, 
     active = (sample >= first) & (sample < first + 5.0)
     y = 0.9 * state[0] + normals[0]
     shared = _wave(y)
-    y = np.where(rarely(active), _wave(sample * 0.1) * constants[1] + normals[4], y)
+    y = np.where(rarely(active), _wave(sample * 0.1) * constants[1] + normals[4] + normals[10], y)
     y = np.where(rarely(sample == first + 7.0), y + _wave(state[1]) + normals[5] * shared, y)
     later = rarely(y > 2.5)  # known only after the choices above
     z = np.where(later, _wave(y) - 3.0, y)

@@ -135,7 +135,7 @@ class _Kernel(Writer):
 
     def _branch(self, seldom: Region, needed: set[int]) -> None:
         """Write a region and the branch around it."""
-        for draw in self._draws(seldom.inside) & self._draws(needed - seldom.inside):
+        for draw in sorted(self._draws(seldom.inside) & self._draws(needed - seldom.inside)):
             self.leaf("draw", self.spec.streams[draw])
         mask = self.value(seldom.conditions[0])
         for condition in seldom.conditions[1:]:

@@ -55,7 +55,7 @@ def region(
     seldom = _only_for(program, order, choices, set(outputs))
     conditions = sorted({nodes[j].arguments[0] for j in choices - seldom if nodes[j].arguments[1] in seldom})
     inside = seldom - behind
-    if sum(latency(program, j) for j in inside) < _WORTH_IT:
+    if sum(latency(program, j) for j in inside if nodes[j].op not in {"literal", "flag"}) < _WORTH_IT:
         return None
     results = {a for j in order if j not in inside for a in nodes[j].arguments if a in inside}
     return Region(frozenset(inside), tuple(sorted(results)), tuple(conditions))
