@@ -15,7 +15,13 @@ from fddbench.interfaces import Bus, Choice, Parameter, SinglePlant, Site, Verdi
 from fddbench.voting.closest_two import ClosestTwo
 from fddbench.voting.median import Median
 
-RATE = {"signal": "r_deg_s", "unit_name": "deg/s", "admissible": 40.0, "stops": (-40.0, 40.0), "limits_s": (120.0, 0.36)}
+RATE = {
+    "signal": "r_deg_s",
+    "unit_name": "deg/s",
+    "admissible": 40.0,
+    "stops": (-40.0, 40.0),
+    "limits_s": (120.0, 0.36),
+}
 
 
 class Toy(SinglePlant):
@@ -85,7 +91,9 @@ def pretend(monkeypatch, family, **members):
     """Register members of a family beside the real ones, as a package would."""
     real = kinds.registered
     points = {
-        name: member if hasattr(member, "load") else SimpleNamespace(load=lambda found=member: found, value=f"tests:{name}")
+        name: member
+        if hasattr(member, "load")
+        else SimpleNamespace(load=lambda found=member: found, value=f"tests:{name}")
         for name, member in members.items()
     }
     monkeypatch.setattr(kinds, "registered", lambda asked: real(asked) | (points if asked == family else {}))

@@ -103,7 +103,10 @@ def synthetic_recording(rows, scenario, detectors, n_cases=50):
     full = {"residual": np.abs(reconstruction) / 0.25, "n_declared": verdict, "reconstruction_deg_s": reconstruction}
     full["threshold_deg_s"] = np.full(shape, 0.25)
     full["deviation_deg_s"] = np.abs(fault + 0.02 * rng.standard_normal(shape))
-    plain = {"residual": np.abs(fault + 0.02 * rng.standard_normal(shape)) / 0.3, "n_declared": np.minimum(verdict, 1.0)}
+    plain = {
+        "residual": np.abs(fault + 0.02 * rng.standard_normal(shape)) / 0.3,
+        "n_declared": np.minimum(verdict, 1.0),
+    }
     return Recording(
         scenario=scenario,
         cases=cases,

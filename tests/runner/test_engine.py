@@ -139,7 +139,9 @@ def test_a_detector_that_cannot_be_compiled_flies_to_the_same_rows(tmp_path):
     flyer = Flyer(assembly)
     batch = assembly.batch(np.arange(0, 32, 2))
     found = flyer.fly(batch, ["sliding_mode_published:residual", "voting_monitor:residual"])
-    scores, departed, _, tape = fly_eagerly(assembly, batch, ["sliding_mode_published:residual", "voting_monitor:residual"])
+    scores, departed, _, tape = fly_eagerly(
+        assembly, batch, ["sliding_mode_published:residual", "voting_monitor:residual"]
+    )
     if llvm.available():
         assert set(flyer.opaque) == {"sliding_mode_published"}
     np.testing.assert_array_equal(found.departed, departed)

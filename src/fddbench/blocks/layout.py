@@ -163,7 +163,9 @@ class Layout(Generic[T]):
     def _values(self, values: T) -> list[Any]:
         given = dict(leaves(values))
         if given.keys() != self.counts.keys():
-            missing, unknown = self.counts.keys() - given.keys(), given.keys() - self.counts.keys()
+            if "" in given:
+                raise TypeError(f"need a record of the fields {list(self.counts)}, got {type(values).__name__}")
+            missing, unknown = sorted(self.counts.keys() - given.keys()), sorted(given.keys() - self.counts.keys())
             raise TypeError(f"need exactly the fields {list(self.counts)}, {missing=}, {unknown=}")
         return list(given.values())
 

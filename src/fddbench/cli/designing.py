@@ -52,9 +52,11 @@ def tune(args: argparse.Namespace) -> int:
         path = find_design(str(args.design), find_campaign(args.campaign).parent)
     chosen = read_design(path)
     assembly = assemble(replace(campaign, designs=(chosen,)))
-    detector = assembly.detectors[chosen.name]
+    detector = assembly.detectors[chosen.name].detector
     if not isinstance(detector, Tunable):
-        raise DesignError(f"the thresholds of {chosen.kind} designs cannot be tuned: the kind evaluates no signals")
+        raise DesignError(
+            f"the thresholds of {chosen.kind.name} designs cannot be tuned: the kind evaluates no signals"
+        )
     peaks = [
         np.stack([held_peaks(signals[name], round(detector.confirm_samples)) for name in detector.evaluated], axis=1)
         for signals in healthy_signals(assembly, chosen.name, detector.evaluated)

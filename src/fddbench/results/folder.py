@@ -79,7 +79,9 @@ def _carried(folder: Path) -> set[str]:
         listed = provenance_of(folder).get("files")
     except ResultsError:
         return set()
-    return {Path(name).parts[0] for name in listed if not Path(name).is_absolute()} if isinstance(listed, dict) else set()
+    return (
+        {Path(name).parts[0] for name in listed if not Path(name).is_absolute()} if isinstance(listed, dict) else set()
+    )
 
 
 def _put_back(folder: Path, files: Mapping[str, bytes]) -> None:
