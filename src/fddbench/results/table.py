@@ -51,7 +51,8 @@ def _tables(folder: Path, which: str, columns: Sequence[str] | None = None) -> S
     provenance_of(folder)
     found = []
     for shard in shards(folder):
-        name, sha256 = getattr(shard, which), getattr(shard, f"{which}_sha256")
+        listed = {"rows": (shard.rows, shard.rows_sha256), "events": (shard.events, shard.events_sha256)}
+        name, sha256 = listed[which]
         if name is not None:
             found.append(read_table(folder / name, sha256, columns))
     return found
