@@ -39,8 +39,10 @@ class LoadedClass:
 
 @dataclass(frozen=True)
 class _Loaded:
+    """A module, and the files beside it that it stands on."""
+
     module: ModuleType
-    files: Mapping[str, bytes]
+    others: Mapping[str, bytes]
 
 
 _loaded: dict[str, list[_Loaded]] = {}
@@ -67,31 +69,32 @@ def load_class(name: str, folder: Path) -> LoadedClass:
     path = folder / match[1]
     if not path.is_file() or not path.resolve().is_relative_to(folder.resolve()):
         raise FddbenchError(f"no file {match[1]} in {folder}; a plug-in lies beside the file that names it")
+    text = path.read_bytes()
     with _lock:
-        loaded = _load(path)
+        loaded = _load(path, text)
     if match[2] not in vars(loaded.module):
         names = [each for each, value in vars(loaded.module).items() if _defined_in(value, loaded.module)]
         raise FddbenchError(f"{path} has no {match[2]!r}. It has: {', '.join(names) or 'none'}")
-    return LoadedClass(getattr(loaded.module, match[2]), loaded.files)
+    # the file itself by the name that it has here: the same text may have been read under another
+    return LoadedClass(getattr(loaded.module, match[2]), {path.name: text, **loaded.others})
 
 
 def _defined_in(value: Any, module: ModuleType) -> bool:
     return isinstance(value, type) and value.__module__ == module.__name__
 
 
-def _load(path: Path) -> _Loaded:
-    text = path.read_bytes()
+def _load(path: Path, text: bytes) -> _Loaded:
     digest = sha256(text).hexdigest()
     for known in _loaded.get(digest, ()):  # a second reading is the same class, if its siblings are the same
-        if all(_read(path.parent, name) == content for name, content in known.files.items() if name != path.name):
+        if all(_read(path.parent, name) == content for name, content in known.others.items()):
             return known
     siblings = _Siblings(path.parent)
     with siblings, noticed_reads(path.parent) as read:
         # named by content, so that two plug-ins of one file name do not meet
         module = _executed(path, f"fddbench_plugin_{path.stem}_{digest[:16]}_{len(_loaded.get(digest, ()))}")
     names = [*siblings.found, *read, *_declared(module, path)]
-    files = {path.name: text} | {name: _read(path.parent, name) or b"" for name in dict.fromkeys(names)}
-    loaded = _Loaded(module, files)
+    others = {name: _read(path.parent, name) or b"" for name in dict.fromkeys(names) if name != path.name}
+    loaded = _Loaded(module, others)
     _loaded.setdefault(digest, []).append(loaded)
     return loaded
 
