@@ -7,6 +7,8 @@ Every message names the place, what was received, what is allowed and what to do
 from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
+from pathlib import Path
+from traceback import extract_tb
 
 __all__ = [
     "CampaignError",
@@ -16,6 +18,7 @@ __all__ = [
     "ResultsError",
     "UnknownNameError",
     "did_you_mean",
+    "place_of",
     "reason_of",
 ]
 
@@ -45,6 +48,14 @@ def reason_of(error: BaseException) -> str:
         text = "(its text cannot be made)"
     whole = f"{type(error).__name__}: {text}" if text else type(error).__name__
     return whole if len(whole) <= _LONGEST else whole[: _LONGEST - 3] + "..."
+
+
+def place_of(error: BaseException, folders: Iterable[Path], otherwise: str = "") -> str:
+    """Line that raised, the innermost in a file of one of these folders, in brackets; the other place where there is none."""
+    known = {folder.resolve() for folder in folders}
+    frames = [f for f in extract_tb(error.__traceback__) if Path(f.filename).resolve().parent in known]
+    place = f"{frames[-1].filename}:{frames[-1].lineno}" if frames else otherwise
+    return f" ({place})" if place else ""
 
 
 class FddbenchError(Exception):

@@ -53,7 +53,7 @@ def _tables(folder: Path, which: str, columns: Sequence[str] | None = None) -> S
     for shard in shards(folder):
         listed = {"rows": (shard.rows, shard.rows_sha256), "events": (shard.events, shard.events_sha256)}
         name, sha256 = listed[which]
-        if name is not None:
+        if name is not None and sha256 is not None:
             found.append(read_table(folder / name, sha256, columns))
     return found
 

@@ -15,8 +15,9 @@ from fddbench.campaign.plan import Plan, PlannedScenario, plan
 from fddbench.designs.adapted import Adapted
 from fddbench.designs.building import build_detectors
 from fddbench.faults.timing import first_samples, last_sample
-from fddbench.interfaces import FlightFaults, Flights, Floats, Loop, Options
+from fddbench.interfaces import FlightFaults, Flights, Floats, Loop
 from fddbench.metrics.scoring import NEVER, EventTimes, Scoring
+from fddbench.runner.loops import loop_of, try_loop
 
 __all__ = ["BEFORE_START", "Assembly", "Batch", "assemble", "has_events"]
 
@@ -194,34 +195,23 @@ class Assembly:
         )
 
 
-def loop_of(planned: Plan) -> Loop:
-    """Closed loop of a campaign's benchmark with its options."""
-    campaign = planned.campaign
-    return campaign.bench.loop(
-        Options(
-            chosen=campaign.chosen,
-            sample_s=campaign.sample_s,
-            substeps=campaign.substeps,
-            faults=tuple(scenario.faults for scenario in planned.scenarios),
-        )
-    )
-
-
 def assemble(campaign: Campaign) -> Assembly:
     """Loop, detectors and scoring of a campaign.
 
     Raises
     ------
-    CampaignError
-        A design does not make a detector for this benchmark.
+    FddbenchError
+        The benchmark cannot be flown with what was chosen, or a design does not make a detector for it.
     """
     planned = plan(campaign)
     loop = loop_of(planned)
     n_events = max((len(s.faults) for s in planned.scenarios if has_events(s)), default=0)
     found = build_detectors(campaign.designs, loop.bus)
-    return Assembly(
+    assembly = Assembly(
         plan=planned,
         loop=loop,
         detectors={name: Adapted(detector, loop.bus) for name, detector in found.items()},
         scoring=Scoring(len(loop.bus.sites), n_events),
     )
+    try_loop(assembly)
+    return assembly
