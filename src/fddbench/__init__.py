@@ -4,31 +4,47 @@
 >>> rows = fddbench.load("results/smoke")  # doctest: +SKIP
 """
 
-from pathlib import Path
-from typing import TYPE_CHECKING
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    import pandas as pd
+    from fddbench.api.campaigns import plan, read, run
+    from fddbench.api.designs import tune
+    from fddbench.api.flights import score, signals
+    from fddbench.api.pages import report
+    from fddbench.api.tables import load, load_events, summary
 
-__all__ = ["__version__", "load", "load_events"]
+__all__ = [
+    "__version__",
+    "load",
+    "load_events",
+    "plan",
+    "read",
+    "report",
+    "run",
+    "score",
+    "signals",
+    "summary",
+    "tune",
+]
 __version__ = "0.1.0"
 
-
-def load(folder: "str | Path") -> "pd.DataFrame":
-    """Rows of a folder of results, one per case and detector; Arrow-backed pandas, null means none.
-
-    Raises
-    ------
-    fddbench.errors.ResultsError
-        No folder of results, or a damaged one.
-    """
-    from fddbench.results import table  # pandas is heavy: it is imported by those who ask for a table
-
-    return table.load(folder)
+_ROOMS = {
+    **dict.fromkeys(("plan", "read", "run"), "campaigns"),
+    **dict.fromkeys(("load", "load_events", "summary"), "tables"),
+    **dict.fromkeys(("score", "signals"), "flights"),
+    "report": "pages",
+    "tune": "designs",
+}
 
 
-def load_events(folder: "str | Path") -> "pd.DataFrame":
-    """Events of a folder of results, one per case, detector and fault where faults are several or end."""
-    from fddbench.results import table
+def __getattr__(name: str) -> Any:
+    """Functions of `fddbench.api`; what they stand on is heavy and is imported by those who ask."""
+    if name not in _ROOMS:
+        raise AttributeError(f"module 'fddbench' has no attribute {name!r}")
+    return getattr(import_module(f"fddbench.api.{_ROOMS[name]}"), name)
 
-    return table.load_events(folder)
+
+def __dir__() -> list[str]:
+    """All there is, imported or not."""
+    return sorted({*globals(), *__all__})

@@ -25,3 +25,29 @@ def test_a_sine_is_one_operation_and_many_flops() -> None:
     found = cost(trace(lambda state: {"state": functions.sin(state)}, state=1))
     assert dict(found.operations) == {"sin": 1}
     assert 25 < found.flops < 60
+
+
+class _Filter:
+    def step(self, x: Any, u: Any) -> Any:
+        return 0.9 * x + 0.1 * u
+
+
+class _Loop:
+    inner = _Filter()
+
+    def step(self, state: Any, u: Any) -> dict[str, Any]:
+        return {"state": self._limited(self.inner.step(state, u))}
+
+    def _limited(self, x: Any) -> Any:
+        return np.minimum(x, 1.0)
+
+
+class _SlowLoop(_Loop):
+    def step(self, state: Any, u: Any) -> dict[str, Any]:
+        return super().step(state * 0.5, u)
+
+
+def test_operations_belong_to_the_blocks_that_were_stepping() -> None:
+    found = cost(trace(_SlowLoop().step, state=1, u=1))
+    assert found.by_block == {"_SlowLoop": {"mul": 1, "min": 1}, "_SlowLoop._Filter": {"mul": 2, "add": 1}}
+    assert sum(sum(counted.values()) for counted in found.by_block.values()) == sum(found.operations.values())

@@ -8,12 +8,15 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from fddbench.blocks import functions
-from fddbench.blocks.operations import OPERATIONS, exponent, fraction, pick, power_of_two
+from fddbench.blocks.operations import OPERATIONS, exponent, fraction, gather, locate, pick, power_of_two, rarely
 from fddbench.blocks.program import trace
+from fddbench.blocks.repeat import repeat
+from fddbench.blocks.table import Table
 
 SPECIAL = (0.0, -0.0, 0.5, -0.5, 1.5, 2.5, -2.5, 1.0, -1.0, 3.0, 0.1, -1e-3, 1e-310, -5e-324, 2.2250738585072014e-308,
            4503599627370495.5, -4503599627370496.5, 1e300, -1e300, 1.7976931348623157e308, np.inf, -np.inf, np.nan)  # fmt: skip
 PAIRS = np.array(np.meshgrid(SPECIAL, SPECIAL)).reshape(2, -1)
+FEW, MANY = Table.of([-1.0, 0.0, 0.0, 0.1, 2.5, np.inf]), Table.of(np.linspace(-150.0, 150.0, 301) / 60.0)
 
 PRIMITIVES: dict[str, Callable[[Any, Any], Any]] = {
     "add": lambda a, b: a + b,
@@ -40,6 +43,9 @@ PRIMITIVES: dict[str, Callable[[Any, Any], Any]] = {
     "exponent": lambda a, _: exponent(a),
     "power_of_two": lambda a, _: power_of_two(np.minimum(np.maximum(np.rint(a), -1022.0), 1023.0)),
     "pick": lambda a, b: pick(a, b, a * b, b - 1.0, b + 2.0),
+    "rarely": lambda a, b: np.where(rarely(a < b), functions.sin(functions.cos(a)), b),
+    "locate": lambda a, b: locate(FEW, a) + locate(MANY, b),
+    "gather": lambda a, b: gather(FEW, a) * gather(MANY, b),
 }
 
 
@@ -49,7 +55,8 @@ def _all_primitives(state: Any) -> dict[str, Any]:
 
 
 def test_the_table_is_covered() -> None:
-    assert PRIMITIVES.keys() == {name for name, operation in OPERATIONS.items() if operation.numpy is not None}
+    primitives = {name for name, operation in OPERATIONS.items() if operation.numpy is not None}
+    assert PRIMITIVES.keys() == primitives - {"row"}  # of a repeat, which has tests of its own
 
 
 def test_primitives_on_special_numbers(where: dict[str, Any], once: Any, same: Any) -> None:
@@ -95,7 +102,9 @@ def test_functions(where: dict[str, Any], once: Any, same: Any) -> None:
 
 
 NUMBERS = st.sampled_from([0.5, 2.0, -3.25, 1.0, 0.1, -1.0, 7.0])
-BINARY = st.sampled_from(["add", "sub", "mul", "div", "min", "max", "select", "number"])
+BINARY = st.sampled_from(
+    ["add", "sub", "mul", "div", "min", "max", "select", "number", "locate", "gather", "repeat", "rarely"]
+)
 UNARY = st.sampled_from(["neg", "abs", "sqrt", "floor", "rint"])
 NAMED = st.sampled_from(["sin", "cos", "exp", "log"])
 INSTRUCTION = st.one_of(
@@ -114,7 +123,10 @@ def _step(instructions: list[tuple[str, int, int | float]]) -> Callable[[Any], d
         for op, first, second in instructions:
             a = rows[first % len(rows)]
             b = rows[second % len(rows)] if isinstance(second, int) else second
-            rows.append(vars(functions)[op](a) if op in {"sin", "cos", "exp", "log"} else PRIMITIVES[op](a, b))
+            if op == "repeat":
+                rows.append(repeat(lambda x, b=b: 0.5 * x + np.maximum(b, rows[0]), a, count=3))
+            else:
+                rows.append(vars(functions)[op](a) if op in {"sin", "cos", "exp", "log"} else PRIMITIVES[op](a, b))
         return {"state": np.stack(rows[-N_ROWS:]), "y": np.stack(rows)}
 
     return step

@@ -10,7 +10,8 @@ import pytest
 from fddbench.blocks import functions
 from fddbench.blocks.interpreter import Interpreter
 from fddbench.blocks.linear import affine, column, largest, product, total
-from fddbench.blocks.program import expand, trace
+from fddbench.blocks.program import trace
+from fddbench.blocks.rewrite import canonical, expand
 from fddbench.blocks.trouble import TraceError
 
 
@@ -111,6 +112,106 @@ def test_identity() -> None:
     first, again = (trace(lambda x: {"y": x + 1.0}, x=1) for _ in range(2))
     other = trace(lambda x: {"y": x + 2.0}, x=1)
     assert first.hash == again.hash != other.hash
+
+
+def _two_ways(x: Any, swap: bool) -> dict[str, Any]:
+    """The same sums and products, written down in another order."""
+
+    def first() -> Any:
+        return x[0] * x[1] + functions.sin(x[2])
+
+    def second() -> Any:
+        return np.where(x[0] > x[2], x[1], 3.0) - x[1] * x[0]
+
+    a, b = (second(), first())[::-1] if swap else (first(), second())
+    rows = np.stack([a, b, b * a if swap else a * b])
+    return {"z": a[np.newaxis], "y": rows} if swap else {"y": rows, "z": a[np.newaxis]}
+
+
+def test_identity_does_not_depend_on_the_order_of_tracing() -> None:
+    one, other = (trace(lambda x, swap=swap: _two_ways(x, swap), x=3) for swap in (False, True))
+    assert one.nodes != other.nodes
+    assert one.hash == other.hash
+    assert canonical(one) == canonical(other)
+    assert canonical(one).hash == one.hash
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        (lambda x: x[0] - x[1], lambda x: x[1] - x[0]),
+        (lambda x: x[0] * 0.5, lambda x: x[0] * -0.5),
+        (lambda x: x[0] + 1.0, lambda x: x[1] + 1.0),
+        (lambda x: np.maximum(x[0], 0.0), lambda x: np.maximum(x[0], -0.0)),
+    ],
+)
+def test_another_computation_is_another_identity(one: Callable[..., Any], other: Callable[..., Any]) -> None:
+    assert len({trace(lambda x, f=f: {"y": f(x)}, x=2).hash for f in (one, other)}) == 2
+
+
+def test_outputs_in_other_places_are_another_identity() -> None:
+    programs = [trace(lambda x, names=names: dict(zip(names, x, strict=True)), x=2) for names in ("ab", "ba")]
+    assert programs[0].hash != programs[1].hash
+
+
+def test_each_node_knows_its_line() -> None:
+    def step(x: Any) -> dict[str, Any]:
+        moved = functions.interpolate(x[0], np.array([[0.0], [1.0]]), np.array([[0.0], [1.0]]))
+        return {"y": (moved + x[1])[np.newaxis]}
+
+    program = trace(step, x=2)
+    lines = {node.op: origin.line for node, origin in zip(program.nodes, program.origins, strict=True) if origin}
+    first = step.__code__.co_firstlineno
+    assert lines["select"] == f"{__file__}:{first + 1}"
+    assert lines["add"] == f"{__file__}:{first + 2}"
+    assert [o is not None for o in expand(program).origins] == [True] * len(expand(program).nodes)
+
+
+def test_lines_are_no_part_of_the_identity() -> None:
+    one = trace(lambda x: {"y": x * 2.0}, x=1)
+    other = trace(lambda x: {"y": x * 2.0}, x=1)
+    assert one.origins != other.origins
+    assert one == other
+    assert one.hash == other.hash
+
+
+class _Keeps:
+    """A step that keeps a traced value between two calls."""
+
+    last: Any = None
+
+    def step(self, x: Any) -> dict[str, Any]:
+        before, self.last = self.last, x
+        return {"y": x if before is None else x + before}
+
+
+def test_a_value_of_another_trace_is_refused() -> None:
+    keeps = _Keeps()
+    trace(keeps.step, x=1)
+    with pytest.raises(TraceError, match="keep nothing between two calls") as caught:
+        trace(keeps.step, x=1)
+    assert caught.value.where == f"{__file__}:{_Keeps.step.__code__.co_firstlineno + 2}"
+
+
+@pytest.mark.parametrize(
+    "mix",
+    [
+        lambda x, a: np.where(x > 0.0, x, a),
+        lambda x, a: np.where(a > 0.0, x, x),
+        lambda x, a: np.concatenate([x, a]),
+        lambda x, a: functions.atan2(x, a),
+        lambda x, a: np.maximum(a, x),
+        lambda x, a: np.clip(x, a, 1.0),
+        lambda x, a: x @ a.reshape(1, 1),
+        lambda x, a: np.full_like(x, a),
+        lambda _, a: a,
+    ],
+)
+def test_values_of_two_traces_are_never_mixed(mix: Callable[..., Any]) -> None:
+    kept: list[Any] = []
+    trace(lambda a: {"y": kept.append(a) or a}, a=1)
+    with pytest.raises(TraceError, match="another trace"):
+        trace(lambda x: {"y": mix(x, kept[0])}, x=1)
 
 
 def _numpy_manners(x: Any, u: Any) -> dict[str, Any]:

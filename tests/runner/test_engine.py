@@ -12,7 +12,7 @@ from fddbench.campaign.load import read_campaign
 from fddbench.designs.adapted import Adapted
 from fddbench.errors import FddbenchError
 from fddbench.metrics.scoring import NEVER
-from fddbench.runner.assembly import assemble
+from fddbench.runner.assembling import assemble
 from fddbench.runner.eager import fly_eagerly
 from fddbench.runner.flight import Flyer
 from fddbench.runner.fused import Fused, why_opaque

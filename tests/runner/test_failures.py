@@ -9,7 +9,8 @@ from tests.runner.conftest import TEXT, write
 from fddbench.blocks.layout import Nothing
 from fddbench.campaign.load import read_campaign
 from fddbench.designs.adapted import Adapted
-from fddbench.runner.assembly import Assembly, assemble
+from fddbench.runner.assembling import assemble
+from fddbench.runner.assembly import Assembly
 from fddbench.runner.flight import Flyer
 from fddbench.runner.work import rows_and_events
 

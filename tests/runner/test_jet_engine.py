@@ -9,7 +9,7 @@ from fddbench.blocks.layout import leaves
 from fddbench.campaign.load import read_campaign
 from fddbench.reporting.published import iterations_for
 from fddbench.results.table import load, load_events
-from fddbench.runner.assembly import assemble
+from fddbench.runner.assembling import assemble
 from fddbench.runner.flight import Flyer
 from fddbench.runner.run import run_campaign
 

@@ -27,7 +27,7 @@ def key(*parts: str) -> str:
 @cache
 def source() -> str:
     """Identity of the code that writes machine code: sha256 of this package's source."""
-    files = sorted(Path(__file__).parent.glob("*.py"))
+    files = sorted(Path(__file__).parent.rglob("*.py"))
     return sha256(b"\0".join(file.read_bytes() for file in files)).hexdigest()
 
 

@@ -1,12 +1,15 @@
 """Nodes of a program while it is being traced: equal nodes are one, and what is known is computed at once."""
 
 import struct
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Hashable
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from fddbench.blocks.operations import OPERATIONS
+from fddbench.blocks.origin import Locator, Origin
+from fddbench.blocks.simplify import COMMUTATIVE, simpler
+from fddbench.blocks.trouble import trouble
 
 __all__ = ["Graph", "Node"]
 
@@ -20,13 +23,14 @@ class Node(NamedTuple):
         Name in `OPERATIONS`.
     arguments : tuple of int
         Nodes it takes.
-    value : float, bool, (str, int) or None
-        Number of a literal or flag; name and row of an input.
+    value : hashable or None
+        What the operation needs beside its arguments: number of a literal or flag, (name, row) of an input, table of a
+        look-up, loop of a repeat, row of its result.
     """
 
     op: str
     arguments: tuple[int, ...] = ()
-    value: float | bool | tuple[str, int] | None = None
+    value: Any = None
 
 
 class Graph:
@@ -36,12 +40,24 @@ class Graph:
     ----------
     expand : bool
         Named functions (sin, ...) are written out as primitives instead of being kept as one node.
+    locate : bool
+        The line and block that each node comes from are looked for in the frames of the caller.
+
+    Attributes
+    ----------
+    depth : int
+        How many traces it is inside of.
+    origin : Origin or None
+        Given to new nodes when it is not None, instead of looking for one.
     """
 
-    def __init__(self, *, expand: bool = False) -> None:
-        self.expand = expand
+    def __init__(self, *, expand: bool = False, locate: bool = False) -> None:
+        self.expand, self.depth = expand, 0
         self.nodes: list[Node] = []
-        self._index: dict[object, int] = {}
+        self.origins: list[Origin | None] = []
+        self.origin: Origin | None = None
+        self.locator = Locator() if locate else None
+        self._index: dict[Hashable, int] = {}
 
     def literal(self, value: float) -> int:
         """Node of a number; zeros of either sign are different."""
@@ -55,15 +71,15 @@ class Graph:
         """Node of an input row."""
         return self._intern(("input", name, row), Node("input", (), (name, row)))
 
-    def add(self, op: str, *arguments: int) -> int:
-        """Node of an operation, after folding of constants and the simplifications of `_simpler`."""
-        known = self._folded(op, arguments)
+    def add(self, op: str, *arguments: int, value: Hashable = None) -> int:
+        """Node of an operation, after folding of constants and the simplifications of `simplify`."""
+        known = self._folded(op, arguments, value)
         if known is None:
-            known = self._simpler(op, arguments)
+            known = simpler(self, op, arguments)
         if known is not None:
             return known
-        key = tuple(sorted(arguments)) if op in _COMMUTATIVE else arguments
-        return self._intern((op, key), Node(op, key))
+        key = tuple(sorted(arguments)) if op in COMMUTATIVE else arguments
+        return self._intern((op, key, value), Node(op, key, value))
 
     def boolean(self, node: int) -> bool:
         """Whether a node is true or false rather than a number."""
@@ -72,143 +88,41 @@ class Graph:
     def constant(self, node: int) -> float | None:
         """Number of a literal or flag, else None."""
         kind, _, value = self.nodes[node]
-        return float(value) if kind in {"literal", "flag"} else None  # type: ignore[arg-type]
+        return float(value) if kind in {"literal", "flag"} else None
 
-    def _intern(self, key: object, node: Node) -> int:
+    def adopt(self, graph: "Graph", node: int) -> int:  # noqa: ARG002
+        """Node here that stands for a node of another graph.
+
+        Raises
+        ------
+        TraceError
+            Always: two traces have nothing to do with each other, and a number of one would be any number in the other.
+        """
+        trouble(
+            "a traced value of another trace is used, kept perhaps on `self` or in a variable outside the step",
+            "pass it to the step as an input or part of its state, and keep nothing between two calls",
+        )
+
+    def forget(self) -> None:
+        """Look for no more origins."""
+        if self.locator:
+            self.locator.forget()
+        self.locator = None
+
+    def _intern(self, key: Hashable, node: Node) -> int:
         found = self._index.get(key)
         if found is None:
             found = self._index[key] = len(self.nodes)
             self.nodes.append(node)
+            self.origins.append(self.locator() if self.locator and self.origin is None else self.origin)
         return found
 
-    def _folded(self, op: str, arguments: tuple[int, ...]) -> int | None:
+    def _folded(self, op: str, arguments: tuple[int, ...], value: Hashable) -> int | None:
         """Literal of a primitive whose arguments are all known, computed by NumPy in float64."""
-        compute, nodes = OPERATIONS[op].numpy, self.nodes
-        if compute is None or any(nodes[a].op not in {"literal", "flag"} for a in arguments):
+        operation, nodes = OPERATIONS[op], self.nodes
+        if operation.numpy is None or any(nodes[a].op not in {"literal", "flag"} for a in arguments):
             return None
+        extra = () if value is None else (value,)
         with np.errstate(all="ignore"):
-            value = compute(*(np.asarray(nodes[a].value) for a in arguments))
-        return self.flag(bool(value)) if OPERATIONS[op].result == "b" else self.literal(float(value))
-
-    def _simpler(self, op: str, arguments: tuple[int, ...]) -> int | None:
-        """An earlier or cheaper node with the same value for finite numbers, up to the sign of a zero.
-
-        ``x 0`` becomes 0 and ``x + 0`` becomes x: this is what makes the zeros of a matrix free. A product of zero with
-        an infinite number would have been not-a-number.
-        """
-        rule = _RULES.get(op)
-        return rule(self, *arguments) if rule else None
-
-
-def _simpler_add(g: Graph, a: int, b: int) -> int | None:
-    for x, y in ((a, b), (b, a)):
-        if g.constant(y) == 0.0:
-            return x
-        if g.nodes[y].op == "neg":
-            return g.add("sub", x, g.nodes[y].arguments[0])
-    return None
-
-
-def _simpler_sub(g: Graph, a: int, b: int) -> int | None:
-    if g.constant(b) == 0.0:
-        return a
-    if g.constant(a) == 0.0:
-        return g.add("neg", b)
-    if g.nodes[b].op == "neg":
-        return g.add("add", a, g.nodes[b].arguments[0])
-    return None
-
-
-def _simpler_mul(g: Graph, a: int, b: int) -> int | None:
-    for x, y in ((a, b), (b, a)):
-        known = g.constant(y)
-        if known == 0.0:
-            return g.literal(0.0)
-        if known == 1.0:
-            return x
-        if known == -1.0:
-            return g.add("neg", x)
-    return None
-
-
-def _simpler_div(g: Graph, a: int, b: int) -> int | None:
-    known = g.constant(b)
-    if known is not None and abs(np.frexp(known)[0]) == 0.5 and 1e-300 < abs(known) < 1e300:
-        return g.add("mul", a, g.literal(1.0 / known))  # exact for powers of two
-    return None
-
-
-def _simpler_neg(g: Graph, a: int) -> int | None:
-    node = g.nodes[a]
-    return node.arguments[0] if node.op == "neg" else None
-
-
-def _simpler_not(g: Graph, a: int) -> int | None:
-    node = g.nodes[a]
-    return node.arguments[0] if node.op == "not" else None
-
-
-def _simpler_min(g: Graph, a: int, b: int) -> int | None:
-    return _simpler_extreme(g, "min", a, b)
-
-
-def _simpler_max(g: Graph, a: int, b: int) -> int | None:
-    return _simpler_extreme(g, "max", a, b)
-
-
-def _simpler_extreme(g: Graph, op: str, a: int, b: int) -> int | None:
-    known = g.constant(b)
-    if known is not None and np.isnan(known):
-        return b
-    if known is not None and g.constant(a) is None:
-        return g.add(op, b, a)  # a number first needs no look at nan in machine code
-    known = g.constant(a)
-    return a if a == b or (known is not None and np.isnan(known)) else None
-
-
-def _simpler_and(g: Graph, a: int, b: int) -> int | None:
-    for x, y in ((a, b), (b, a)):
-        if g.nodes[y].op == "flag":
-            return x if g.nodes[y].value else y
-    return a if a == b else None
-
-
-def _simpler_or(g: Graph, a: int, b: int) -> int | None:
-    for x, y in ((a, b), (b, a)):
-        if g.nodes[y].op == "flag":
-            return y if g.nodes[y].value else x
-    return a if a == b else None
-
-
-def _simpler_select(g: Graph, condition: int, a: int, b: int) -> int | None:
-    node = g.nodes[condition]
-    if node.op == "flag":
-        return a if node.value else b
-    if node.op == "not":
-        return g.add("select", node.arguments[0], b, a)
-    if a == b:
-        return a
-    return g.add("number", condition) if (g.constant(a), g.constant(b)) == (1.0, 0.0) else None
-
-
-def _simpler_ne(g: Graph, a: int, b: int) -> int | None:
-    if g.nodes[a].op == "number" and g.constant(b) == 0.0:
-        return g.nodes[a].arguments[0]
-    return None
-
-
-_COMMUTATIVE = {"add", "mul", "eq", "ne", "and", "or"}
-_RULES: dict[str, Callable[..., int | None]] = {
-    "add": _simpler_add,
-    "sub": _simpler_sub,
-    "mul": _simpler_mul,
-    "div": _simpler_div,
-    "neg": _simpler_neg,
-    "not": _simpler_not,
-    "min": _simpler_min,
-    "max": _simpler_max,
-    "and": _simpler_and,
-    "or": _simpler_or,
-    "select": _simpler_select,
-    "ne": _simpler_ne,
-}
+            result = operation.numpy(*extra, *(np.asarray(nodes[a].value) for a in arguments))
+        return self.flag(bool(result)) if operation.result == "b" else self.literal(float(result))

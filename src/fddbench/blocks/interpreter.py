@@ -7,7 +7,9 @@ import numpy as np
 import numpy.typing as npt
 
 from fddbench.blocks.operations import OPERATIONS
-from fddbench.blocks.program import Program, depends_only_on, expand
+from fddbench.blocks.program import Program
+from fddbench.blocks.repeat import Loop
+from fddbench.blocks.rewrite import depends_only_on, expand
 
 __all__ = ["Interpreter"]
 
@@ -40,6 +42,8 @@ class Interpreter:
         self._each = [j for j in order if not once[j]]
         self._freed = self._last_uses(once)
         self._known: dict[int, Any] = {}
+        loops = {node.value for node in self.program.nodes if node.op == "repeat"}
+        self._bodies = {loop: Interpreter(loop.body, fixed=("fixed",)) for loop in loops}
 
     def _last_uses(self, once: list[bool]) -> dict[int, list[int]]:
         """Nodes to forget after each node, so that temporaries do not pile up; what is fixed stays for the next run."""
@@ -66,17 +70,29 @@ class Interpreter:
             for name, rows in self.program.outputs.items()
         }
 
+    def _repeated(self, loop: Loop, rows: list[Any]) -> Floats:
+        """Rows after the loop, (n_rows, n_cases)."""
+        stacked = np.array(np.broadcast_arrays(*map(np.atleast_1d, rows)), dtype=float)
+        x, body = stacked[: loop.rows], self._bodies[loop]
+        body.fix(fixed=stacked[loop.rows :])
+        for _ in range(loop.count):
+            x = body.run(x=x)["x"]
+        return np.broadcast_to(x, (loop.rows, stacked.shape[1]))
+
     def _compute(self, order: list[int], values: dict[int, Any], inputs: Mapping[str, Any]) -> None:
         nodes, freed = self.program.nodes, self._freed
         with np.errstate(all="ignore"):
             for j in order:
                 op, arguments, value = nodes[j]
                 if op == "input":
-                    name, row = value  # type: ignore[misc]
+                    name, row = value
                     values[j] = inputs[name][row] if self.program.inputs[name] else inputs[name]
                 elif not arguments:
                     values[j] = value
+                elif op == "repeat":
+                    values[j] = self._repeated(value, [values[a] for a in arguments])
                 else:
-                    values[j] = OPERATIONS[op].numpy(*[values[a] for a in arguments])  # type: ignore[misc]
+                    extra = () if value is None else (value,)
+                    values[j] = OPERATIONS[op].numpy(*extra, *[values[a] for a in arguments])  # type: ignore[misc]
                 for argument in freed.get(j, ()):
                     del values[argument]

@@ -5,7 +5,7 @@ IEEE 754, so NumPy, LLVM at any width and C give the same bits. Only what a not-
 """
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
@@ -13,8 +13,12 @@ from typing import Any, ParamSpec, TypeVar
 import numpy as np
 
 from fddbench.blocks.layout import Rows
+from fddbench.blocks.table import Table
 
-__all__ = ["OPERATIONS", "Operation", "Symbolic", "exponent", "fraction", "named", "pick", "power_of_two"]
+__all__ = [
+    "OPERATIONS", "Operation", "Symbolic", "exponent", "fraction", "gather", "locate", "named", "pick", "power_of_two",
+    "rarely",
+]  # fmt: skip
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -27,8 +31,8 @@ _BIASED_MAGIC = _MAGIC + 1023.0
 class Symbolic:
     """A value being traced; see `fddbench.blocks.traced`. Named blocks hand themselves over to it."""
 
-    def apply(self, name: str, arguments: tuple[Any, ...]) -> Any:
-        """Value of the operation called `name`, element by element."""
+    def apply(self, name: str, arguments: tuple[Any, ...], value: Hashable = None) -> Any:
+        """Value of the operation called `name`, element by element; `value` is what it needs beside its arguments."""
         raise NotImplementedError
 
 
@@ -92,6 +96,41 @@ def pick(index: Rows, *rows: Rows) -> Rows:
     return chosen
 
 
+@named
+def rarely(condition: Rows) -> Rows:
+    """The condition itself, which is said to be seldom true, as that a fault is there.
+
+    Compiled, what only ``np.where(rarely(condition), a, b)`` needs for its ``a`` is left out in every sample in which no
+    such condition is true in any of the cases that fly side by side. The result is the same; the saying is about speed.
+    """
+    return condition
+
+
+def locate(knots: Table, x: Rows) -> Rows:
+    """How many of the rising knots lie at or below x, (n_cases,); none for a not-a-number.
+
+    >>> locate(Table.of([0.0, 1.0, 5.0]), np.array([-1.0, 1.0, 9.0, np.nan]))
+    array([0., 2., 3., 0.])
+    """
+    if isinstance(x, Symbolic):
+        return x.apply("locate", (x,), knots)
+    x = np.asarray(x, dtype=float)
+    return np.where(np.isnan(x), 0.0, np.searchsorted(knots.values, x, side="right"))
+
+
+def gather(table: Table, place: Rows) -> Rows:
+    """Entry of a table at a place, (n_cases,): the first or last one outside, the first one for a not-a-number.
+
+    >>> gather(Table.of([10.0, 11.0, 12.0]), np.array([1.0, -3.0, 7.0, np.nan]))
+    array([11., 10., 12., 10.])
+    """
+    if isinstance(place, Symbolic):
+        return place.apply("gather", (place,), table)
+    place = np.asarray(place, dtype=float)
+    inside = np.where(place > 0.0, np.minimum(place, float(len(table) - 1)), 0.0)
+    return table.values[inside.astype(np.int64)]
+
+
 @dataclass(frozen=True)
 class Operation:
     """One line of the table.
@@ -107,9 +146,10 @@ class Operation:
     c : str
         C99 expression, ``{0}`` the first argument.
     numpy : callable or None
-        The same on arrays; None for leaves and composites (those are functions of ``blocks.functions``).
+        The same on arrays, the value of the node first where it has one; None for leaves, for composites (those are
+        functions of ``blocks.functions``) and for a repeat, which the interpreter runs itself.
     arguments, result : str
-        ``f`` float64, ``b`` boolean, one letter an argument.
+        ``f`` float64, ``b`` boolean, one letter an argument; ``r`` rows of float64, which only ``row`` takes.
     """
 
     meaning: str
@@ -119,6 +159,11 @@ class Operation:
     numpy: Callable[..., Any] | None
     arguments: str = ""
     result: str = "f"
+
+    @property
+    def composite(self) -> bool:
+        """Whether it is a function written in other operations."""
+        return self.flops < 0
 
 
 OPERATIONS: dict[str, Operation] = {
@@ -145,10 +190,17 @@ OPERATIONS: dict[str, Operation] = {
     "not": Operation("the opposite", 1, 1, "(!{0})", np.logical_not, "b", "b"),
     "select": Operation("b where a, else c", 3, 1, "({0} ? {1} : {2})", np.where, "bff"),
     "number": Operation("1 where a, else 0", 1, 1, "({0} ? 1.0 : 0.0)", lambda a: np.where(a, 1.0, 0.0), "b"),
+    "rarely": Operation("a, which is seldom true", 1, 0, "{0}", rarely, "b", "b"),
     "fraction": Operation("significand of a, 0.5 .. 1", 1, 2, "fdd_fraction({0})", fraction, "f"),
     "exponent": Operation("power of two of a", 1, 3, "fdd_exponent({0})", exponent, "f"),
     "power_of_two": Operation("two to the whole power a", 1, 2, "ldexp(1.0, (int){0})", power_of_two, "f"),
     "pick": Operation("argument number a of the rest", -1, 1, "fdd_pick({0}, {rest})", pick, "f"),
+    "locate": Operation(
+        "how many of the rising knots lie at or below a", 1, 4, "fdd_locate({table}, {0})", locate, "f"
+    ),
+    "gather": Operation("entry number a of a table", 1, 1, "{table}[fdd_index({0})]", gather, "f"),
+    "repeat": Operation("rows after a body has run many times", -1, 0, "{loop}({rest})", None, "", "r"),
+    "row": Operation("one row of a repeat", 1, 0, "{0}[{row}]", lambda number, rows: rows[number], "r"),
     "sin": Operation("sine of a [rad]", 1, -1, "fdd_sin({0})", None, "f"),
     "cos": Operation("cosine of a [rad]", 1, -1, "fdd_cos({0})", None, "f"),
     "exp": Operation("exponential of a", 1, -1, "fdd_exp({0})", None, "f"),
@@ -157,5 +209,5 @@ OPERATIONS: dict[str, Operation] = {
     "atan2": Operation("angle of the point (b, a) [rad]", 2, -1, "fdd_atan2({0}, {1})", None, "ff"),
     "asin": Operation("arc sine of a [rad]", 1, -1, "fdd_asin({0})", None, "f"),
 }
-"""The whole set. Table look-ups (``functions.interpolate``), ring buffers (``ring``) and constant matrix products
-(``linear.product``, ``@``) are made of these in a fixed order and are exported as such."""
+"""The whole set. Look-ups between knots that differ from case to case (``functions.interpolate``), ring buffers (``ring``)
+and constant matrix products (``linear.product``, ``@``) are made of these in a fixed order and are exported as such."""

@@ -1,19 +1,21 @@
 """A traced step: flat list of scalar operations with named inputs and outputs."""
 
 from collections import Counter
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from hashlib import sha256
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from hashlib import blake2b, sha256
 from typing import Any
 
 import numpy as np
 
 from fddbench.blocks.graph import Graph, Node
-from fddbench.blocks.operations import OPERATIONS
+from fddbench.blocks.origin import Origin
+from fddbench.blocks.simplify import COMMUTATIVE
 from fddbench.blocks.traced import Traced
 from fddbench.blocks.trouble import trouble
 
-__all__ = ["Program", "depends_only_on", "expand", "prune", "trace"]
+__all__ = ["Program", "digests", "prune", "trace"]
 
 
 @dataclass(frozen=True)
@@ -28,26 +30,30 @@ class Program:
         Operations; arguments come before their use.
     outputs : mapping of str to tuple of int
         Node of each row of each output; every output is a number (true is 1).
+    origins : tuple of Origin or None
+        Block and line that each node was traced from, no part of what the program is; empty: nobody looked.
     """
 
     inputs: Mapping[str, int]
     nodes: tuple[Node, ...]
     outputs: Mapping[str, tuple[int, ...]]
+    origins: tuple[Origin | None, ...] = field(default=(), compare=False, repr=False)
 
     @property
     def counts(self) -> Counter[str]:
         """Number of nodes by operation, leaves included."""
         return Counter(node.op for node in self.nodes)
 
-    @property
+    @cached_property
     def hash(self) -> str:
-        """Identity of the computation: sha256 of inputs, nodes and outputs, in hexadecimal."""
-        text = repr((sorted(self.inputs.items()), [tuple(n) for n in self.nodes], list(self.outputs.items())))
-        return sha256(text.encode()).hexdigest()
+        """Identity of the computation, in hexadecimal: what each output row is made of, whatever was traced first."""
+        found = digests(self.nodes)
+        outputs = sorted((name, [found[node].hex() for node in rows]) for name, rows in self.outputs.items())
+        return sha256(repr((sorted(self.inputs.items()), outputs)).encode()).hexdigest()
 
     def keep(self, *names: str) -> "Program":
         """The same program with these outputs only, and nothing computed that they do not need."""
-        return prune(Program(self.inputs, self.nodes, {name: self.outputs[name] for name in names}))
+        return prune(replace(self, outputs={name: self.outputs[name] for name in names}))
 
 
 def trace(function: Callable[..., Mapping[str, Any]], /, **inputs: int) -> Program:
@@ -66,14 +72,17 @@ def trace(function: Callable[..., Mapping[str, Any]], /, **inputs: int) -> Progr
     >>> program.counts["mul"], program.counts["max"], len(program.outputs["x"])
     (2, 2, 2)
     """
-    graph, values = Graph(), {}
+    graph, values = Graph(locate=True), {}
     for name, rows in inputs.items():
         ids = np.array([graph.input(name, row) for row in range(max(rows, 1))], dtype=np.int64)
         values[name] = Traced(graph, ids[:, np.newaxis] if rows else ids)
-    results = function(**values)
-    root = Traced(graph, np.zeros(0, dtype=np.int64))
-    outputs = {name: _rows(root.lift(value).number(), name) for name, value in results.items()}
-    return prune(Program(dict(inputs), tuple(graph.nodes), outputs))
+    try:
+        results = function(**values)
+        root = Traced(graph, np.zeros(0, dtype=np.int64))
+        outputs = {name: _rows(root.lift(value).number(), name) for name, value in results.items()}
+    finally:
+        graph.forget()
+    return prune(Program(dict(inputs), tuple(graph.nodes), outputs, tuple(graph.origins)))
 
 
 def _rows(value: Traced, name: str) -> tuple[int, ...]:
@@ -95,51 +104,22 @@ def prune(program: Program) -> Program:
         if needed[j]:
             for argument in nodes[j].arguments:
                 needed[argument] = True
-    place: dict[int, int] = {}
-    kept: list[Node] = []
-    for j, node in enumerate(nodes):
-        if needed[j]:
-            place[j] = len(kept)
-            kept.append(Node(node.op, tuple(place[a] for a in node.arguments), node.value))
-    outputs = {name: tuple(place[j] for j in rows) for name, rows in program.outputs.items()}
-    return Program(program.inputs, tuple(kept), outputs)
+    kept = [j for j in range(len(nodes)) if needed[j]]
+    place = {j: number for number, j in enumerate(kept)}
+    return Program(
+        program.inputs,
+        tuple(Node(nodes[j].op, tuple(place[a] for a in nodes[j].arguments), nodes[j].value) for j in kept),
+        {name: tuple(place[j] for j in rows) for name, rows in program.outputs.items()},
+        tuple(program.origins[j] for j in kept) if program.origins else (),
+    )
 
 
-def expand(program: Program, replace: Callable[[Graph, str, int], int | None] | None = None) -> Program:
-    """The same program in primitives: sines and their kin written out as `blocks.functions` defines them.
-
-    Parameters
-    ----------
-    replace : callable, optional
-        Given the new graph, the name and the row of an input, the node to take instead, or None to keep it.
-    """
-    graph, place = Graph(expand=True), list[int]()
-    for op, arguments, value in program.nodes:
-        if op == "literal":
-            place.append(graph.literal(value))  # type: ignore[arg-type]
-        elif op == "flag":
-            place.append(graph.flag(value))  # type: ignore[arg-type]
-        elif op == "input":
-            name, row = value  # type: ignore[misc]
-            other = replace(graph, name, row) if replace else None
-            place.append(graph.input(name, row) if other is None else other)
-        else:
-            mapped = tuple(Traced(graph, np.asarray(place[a]), boolean=graph.boolean(place[a])) for a in arguments)
-            place.append(_scalar(graph, op, mapped))
-    outputs = {name: tuple(place[node] for node in rows) for name, rows in program.outputs.items()}
-    return prune(Program(program.inputs, tuple(graph.nodes), outputs))
-
-
-def _scalar(graph: Graph, op: str, arguments: tuple[Traced, ...]) -> int:
-    """Node of one operation; composites by running their definition."""
-    if OPERATIONS[op].numpy is not None:
-        return graph.add(op, *(int(argument.ids) for argument in arguments))
-    return int(arguments[0].apply(op, arguments).ids)
-
-
-def depends_only_on(program: Program, names: set[str]) -> list[bool]:
-    """For each node whether it is made of these inputs and of literals only."""
-    known: list[bool] = []
-    for op, arguments, value in program.nodes:
-        known.append(value[0] in names if op == "input" else all(known[a] for a in arguments))  # type: ignore[index]
-    return known
+def digests(nodes: Sequence[Node]) -> list[bytes]:
+    """What each node computes, in 16 bytes: a hash of its operation and of its arguments' digests, not of their numbers."""
+    found: list[bytes] = []
+    for op, arguments, value in nodes:
+        parts = [found[a] for a in arguments]
+        if op in COMMUTATIVE:
+            parts.sort()
+        found.append(blake2b(repr((op, value)).encode() + b"".join(parts), digest_size=16).digest())
+    return found

@@ -3,7 +3,8 @@
 from collections import defaultdict
 from dataclasses import dataclass
 
-from fddbench.blocks.program import Program, depends_only_on
+from fddbench.blocks.program import Program
+from fddbench.blocks.rewrite import depends_only_on
 
 __all__ = ["Ring", "reads", "writes"]
 
@@ -31,7 +32,7 @@ class Ring:
 def _state_row(program: Program, node: int) -> int:
     """Row of a state input, else -1."""
     op, _, value = program.nodes[node]
-    return value[1] if op == "input" and value[0] == "state" else -1  # type: ignore[index]
+    return value[1] if op == "input" and value[0] == "state" else -1
 
 
 def reads(program: Program) -> dict[int, Ring]:
@@ -55,8 +56,8 @@ def writes(program: Program) -> list[Ring]:
         test, compared, _ = program.nodes[arguments[0]]
         for index, turn in (compared, compared[::-1]) if test == "eq" else ():
             place = program.nodes[turn].value
-            if program.nodes[turn].op == "literal" and uniform[index] and float(place).is_integer():  # type: ignore[arg-type]
-                turns[index, arguments[1], row - int(place)].add(int(place))  # type: ignore[arg-type]
+            if program.nodes[turn].op == "literal" and uniform[index] and float(place).is_integer():
+                turns[index, arguments[1], row - int(place)].add(int(place))
     return [
         Ring(index, first, len(places), value)
         for (index, value, first), places in turns.items()

@@ -1,6 +1,6 @@
 """The value type that a step sees while it is traced: it answers NumPy's protocols and remembers what was done."""
 
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterable, Iterator
 from typing import Any
 
 import numpy as np
@@ -77,7 +77,7 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
     def lift(self, value: Any) -> "Traced":
         """A number, plain array or traced value as a traced value of this trace."""
         if isinstance(value, Traced):
-            return value
+            return value if value.graph is self.graph else self._adopted(value)
         array = np.asarray(value)
         if array.dtype.kind not in "bfiu":
             trouble(f"{type(value).__name__} {value!r} is no array of numbers", "pass numbers, arrays or traced values")
@@ -85,6 +85,11 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
         leaf: Any = self.graph.flag if boolean else self.graph.literal
         ids = np.array([leaf(x) for x in array.ravel().tolist()], dtype=np.int64).reshape(array.shape)
         return self.like(ids, boolean=boolean)
+
+    def _adopted(self, other: "Traced") -> "Traced":
+        """A value of another trace, where that is allowed."""
+        ids = [self.graph.adopt(other.graph, int(node)) for node in other.ids.ravel()]
+        return self.like(np.array(ids, dtype=np.int64).reshape(other.shape), boolean=other.boolean)
 
     def number(self) -> "Traced":
         """Itself, true and false as 1 and 0."""
@@ -98,17 +103,21 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
         return self if self.boolean else ufuncs.apply(np.not_equal, self, (self, 0.0))
 
     # --- operations ---
-    def apply(self, name: str, arguments: tuple[Any, ...]) -> Any:
-        """Operation `name` of the table on every element, operands broadcast as by NumPy."""
-        if self.graph.expand and OPERATIONS[name].numpy is None:
+    def apply(self, name: str, arguments: tuple[Any, ...], value: Hashable = None) -> Any:
+        """Operation `name` of the table on every element, operands broadcast as by NumPy; `value` as `Node` has it."""
+        root = _innermost(self, arguments)
+        if root is not self:
+            return root.apply(name, arguments, value)
+        if self.graph.expand and OPERATIONS[name].composite:
             return array_functions.definition(name)(*arguments)
         operation, lifted = OPERATIONS[name], [self.lift(argument) for argument in arguments]
         kinds = operation.arguments if operation.arity >= 0 else "f" * len(lifted)
-        if any(kind == "b" and not value.boolean for kind, value in zip(kinds, lifted, strict=True)):
+        if any(kind == "b" and not v.boolean for kind, v in zip(kinds, lifted, strict=True)):
             trouble(f"{name} needs true or false, got numbers", "compare first: (a > 0.5) & (b > 0.5)")
         operands = [v.number() if kind == "f" else v for kind, v in zip(kinds, lifted, strict=True)]
         columns = np.broadcast_arrays(*(operand.ids for operand in operands))
-        nodes = [self.graph.add(name, *row) for row in zip(*(c.ravel().tolist() for c in columns), strict=True)]
+        rows = zip(*(column.ravel().tolist() for column in columns), strict=True)
+        nodes = [self.graph.add(name, *row, value=value) for row in rows]
         return self.like(np.array(nodes, dtype=np.int64).reshape(columns[0].shape), boolean=operation.result == "b")
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **options: Any) -> Any:
@@ -119,7 +128,7 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
             return array_functions.reduce_axis(self, array_functions.REDUCTIONS[ufunc], axis, keepdims=False)
         if method != "__call__" or any(value is not None for value in options.values()):
             trouble(f"np.{ufunc.__name__} with {method} {options or ''} cannot be traced", "use the plain call")
-        result = ufuncs.apply(ufunc, self, inputs)
+        result = ufuncs.apply(ufunc, _innermost(self, inputs), inputs)
         if out is None:
             return result
         if not isinstance(out[0], Traced):
@@ -133,7 +142,7 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
         if handler is None:
             trouble(f"np.{func.__name__} is not among the functions that can be traced",
                     array_functions.CURES.get(func, "write it with + - * / and np.where"))  # fmt: skip
-        return handler(self, *args, **kwargs)
+        return handler(_innermost(self, [*args, *kwargs.values()]), *args, **kwargs)
 
     # --- indexing ---
     def __getitem__(self, key: Any) -> "Traced":
@@ -217,6 +226,16 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
             "its numbers",
             "build arrays with np.stack or np.concatenate, look up with blocks.functions.interpolate, choose with np.where",
         )
+
+
+def _innermost(root: Traced, values: Iterable[Any]) -> Traced:
+    """Of the traced values the one of the innermost trace: inside a `repeat` those of outside are taken in, not the reverse."""
+    for value in values:
+        if isinstance(value, list | tuple):
+            root = _innermost(root, value)
+        elif isinstance(value, Traced) and value.graph.depth > root.graph.depth:
+            root = value
+    return root
 
 
 def _static(key: Any) -> Any:

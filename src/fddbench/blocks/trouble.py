@@ -2,16 +2,12 @@
 
 import sys
 from dataclasses import dataclass
-from pathlib import Path
 from typing import NoReturn
 
-import numpy as np
-
+from fddbench.blocks.origin import outside
 from fddbench.errors import FddbenchError
 
 __all__ = ["TraceError", "trouble"]
-
-_OURS = (str(Path(__file__).parent), str(Path(np.__file__).parent))
 
 
 @dataclass(eq=False)
@@ -28,8 +24,12 @@ class TraceError(FddbenchError):
 
 
 def trouble(problem: str, cure: str) -> NoReturn:
-    """Raise the error, with the innermost line that is neither ours nor NumPy's."""
-    frame = sys._getframe(1)
-    while frame.f_back is not None and frame.f_code.co_filename.startswith((*_OURS, "<")):
-        frame = frame.f_back
+    """Raise the error, with the innermost line that is neither ours nor NumPy's.
+
+    Raises
+    ------
+    TraceError
+        Always.
+    """
+    frame = outside(sys._getframe(1))
     raise TraceError(f"{frame.f_code.co_filename}:{frame.f_lineno}", problem, cure)

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fddbench.errors import FddbenchError, ResultsError
+from fddbench.errors import FddbenchError
 
 if TYPE_CHECKING:
     from fddbench.runner.assembly import Assembly
@@ -18,22 +18,21 @@ def run(args: argparse.Namespace) -> int:
 
     Goes on where an earlier run of the same campaign stopped. Ctrl-C stops after saving what is finished.
     """
-    from fddbench.campaign.load import read_campaign
+    from fddbench.api import campaigns
     from fddbench.cli.progress import shown
-    from fddbench.runner.run import run_campaign
 
-    campaign = read_campaign(args.campaign, args.overrides)
-    folder = args.out or Path("results") / campaign.name
+    campaign = campaigns.read(args.campaign, args.overrides)
     with shown(campaign.name, quiet=args.quiet) as progress:
-        report = run_campaign(
+        report = campaigns.run(
             campaign,
-            folder,
+            args.out,
             jobs=args.jobs,
             fresh=args.fresh,
             backend=args.backend,
             progress=progress,
             notice=lambda text: print(f"fddbench: {text}", file=sys.stderr),
         )
+    folder = report.folder
     if report.interrupted:
         done = report.continued + report.flights
         print(
@@ -65,18 +64,9 @@ def _summary(folder: Path) -> None:
 
 def report(args: argparse.Namespace) -> int:
     """Write the page of a folder of results: one HTML file that needs no network."""
-    from fddbench.cli.report_data import report_data
-    from fddbench.reporting.page import write_page
+    from fddbench.api.pages import report as write
 
-    if not args.folder.is_dir():
-        raise ResultsError(f"{args.folder} is no folder; name one that `fddbench run` wrote")
-    output = args.output or args.folder / "report.html"
-    data = report_data(args.folder)
-    try:
-        write_page(data, output)
-    except OSError as error:
-        raise FddbenchError(f"cannot write {output}: {error.strerror}; name another file with --output") from error
-    print(output)
+    print(write(args.folder, args.output))
     return 0
 
 
@@ -111,7 +101,7 @@ def _one_detector(design: str, campaign: Path | None) -> "Assembly":
     """Assembly of a campaign with one detector; without a campaign the first shipped one whose benchmark feeds it."""
     from fddbench import gallery
     from fddbench.campaign.load import read_campaign
-    from fddbench.runner.assembly import assemble
+    from fddbench.runner.assembling import assemble
 
     shipped = [Path("smoke"), *(Path(path.stem) for path in sorted(gallery.folder("campaigns").glob("*.yaml")))]
     first: FddbenchError | None = None
@@ -125,16 +115,13 @@ def _one_detector(design: str, campaign: Path | None) -> "Assembly":
 
 
 def check(args: argparse.Namespace) -> int:
-    """Say every mistake of a campaign at once, or what it would fly, and how long that takes."""
-    from fddbench.blocks import llvm
-    from fddbench.campaign.check import describe
-    from fddbench.campaign.load import read_campaign
-    from fddbench.runner.assembly import assemble
+    """Say every mistake of a campaign at once, or what it would fly, and how long that takes.
 
-    campaign = read_campaign(args.campaign, args.overrides)
-    plan = assemble(campaign).plan
-    # measured: compiled code flies some 1e7 samples a second on one core, after a start of about 1 s
-    print(describe(plan, seconds_per_flight_step=1e-7, overhead_s=0.0) if llvm.available() else describe(plan))
+    Every detector is stepped a few samples; those that cannot be compiled are named with what they cost.
+    """
+    from fddbench.api.checking import described
+
+    print(described(args.campaign, args.overrides))
     return 0
 
 

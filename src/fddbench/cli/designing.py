@@ -2,10 +2,9 @@
 
 import argparse
 import sys
-from dataclasses import replace
 from pathlib import Path
 
-from fddbench.errors import DesignError, FddbenchError
+from fddbench.errors import FddbenchError
 
 __all__ = ["design", "tune"]
 
@@ -34,38 +33,12 @@ def tune(args: argparse.Namespace) -> int:
 
     Writes a new design that says what it was tuned on.
     """
-    import numpy as np
+    from fddbench.api.campaigns import read
+    from fddbench.api.designs import tune as tuned
 
-    from fddbench.campaign.load import find_campaign, read_campaign
-    from fddbench.campaign.reading.yaml_nodes import read_yaml
-    from fddbench.design.tuning import held_peaks, require_tuning, tuned, tuned_text
-    from fddbench.designs.design import read_design
-    from fddbench.designs.finding import find_design
-    from fddbench.interfaces import Tunable
-    from fddbench.runner.assembly import assemble
-    from fddbench.runner.observe import healthy_signals
-
-    campaign = read_campaign(args.campaign, args.overrides)
-    require_tuning(campaign)
-    path = args.design
-    if not path.is_file():
-        path = find_design(str(args.design), find_campaign(args.campaign).parent)
-    chosen = read_design(path)
-    assembly = assemble(replace(campaign, designs=(chosen,)))
-    detector = assembly.detectors[chosen.name].detector
-    if not isinstance(detector, Tunable):
-        raise DesignError(
-            f"the thresholds of {chosen.kind.name} designs cannot be tuned: the kind evaluates no signals"
-        )
-    peaks = [
-        np.stack([held_peaks(signals[name], round(detector.confirm_samples)) for name in detector.evaluated], axis=1)
-        for signals in healthy_signals(assembly, chosen.name, detector.evaluated)
-    ]
-    if not peaks:
-        raise DesignError(f"none of the healthy flights of {campaign.path} can be flown")
-    found = tuned(np.concatenate(peaks), args.false_alarm_rate)
-    output = args.output or Path("detectors") / f"{chosen.name}_tuned.yaml"
-    _write(output, tuned_text(chosen, read_yaml(path).data, found.thresholds, campaign), force=args.force)
+    made = tuned(args.design, read(args.campaign, args.overrides), false_alarm_rate=args.false_alarm_rate)
+    output, found = args.output or Path("detectors") / f"{made.name}_tuned.yaml", made.found
+    _write(output, made.text, force=args.force)
     print(f"thresholds: {', '.join(f'{value:.6g}' for value in found.thresholds)}")
     print(
         f"false alarms: {found.alarms} of these {found.flights} flights ({100.0 * found.alarms / found.flights:.3g} %), asked "

@@ -1,4 +1,8 @@
-"""Exact confidence intervals: a share of flights (Clopper-Pearson) and a rate per hour (Garwood)."""
+"""Exact confidence intervals: a share of flights (Clopper-Pearson) and a rate per hour (Garwood).
+
+They hold for independent flights. What pools flights of the same runs has `fddbench.metrics.clustered` and
+`fddbench.metrics.exposure`, which ask for the same quantiles at a smaller, no longer whole number of flights or hours.
+"""
 
 import numpy as np
 import numpy.typing as npt
@@ -6,7 +10,7 @@ import numpy.typing as npt
 from fddbench.errors import FddbenchError
 from fddbench.interfaces import Floats
 
-__all__ = ["clopper_pearson", "poisson_rate"]
+__all__ = ["beta_interval", "clopper_pearson", "poisson_rate"]
 
 
 def clopper_pearson(hits: npt.ArrayLike, trials: npt.ArrayLike, confidence: float = 0.95) -> tuple[Floats, Floats]:
@@ -44,17 +48,49 @@ def clopper_pearson(hits: npt.ArrayLike, trials: npt.ArrayLike, confidence: floa
     >>> [round(float(end), 4) for end in (*low, *high)]
     [0.0, 0.9638, 0.0362, 1.0]
     """
-    from scipy.special import betaincinv
-
-    k, n = np.broadcast_arrays(np.asarray(hits, dtype=np.float64), np.asarray(trials, dtype=np.float64))
-    tail = _tail(confidence)
+    k, n = np.asarray(hits, dtype=np.float64), np.asarray(trials, dtype=np.float64)
     if not np.all((k >= 0) & (k <= n) & (n >= 1)):
         raise FddbenchError(
             f"need 0 <= hits <= trials and trials >= 1, got {hits=}, {trials=}; "
             "with trials 0 there is no rate: callers show the count and leave the interval empty"
         )
-    low = np.where(k > 0, betaincinv(np.maximum(k, 1.0), n - k + 1.0, tail), 0.0)
-    high = np.where(k < n, betaincinv(k + 1.0, np.maximum(n - k, 1.0), 1.0 - tail), 1.0)
+    return beta_interval(k, n, confidence)
+
+
+def beta_interval(hits: npt.ArrayLike, trials: npt.ArrayLike, confidence: float = 0.95) -> tuple[Floats, Floats]:
+    """Formula of `clopper_pearson` for real numbers: effective hits in effective trials, ``0 <= hits <= trials``.
+
+    Parameters
+    ----------
+    hits, trials : float or (...) arrays of them
+        Effective numbers, broadcast against each other; neither need be whole, `trials` may lie below 1.
+    confidence : float
+        Between 0 and 1 [-].
+
+    Returns
+    -------
+    low, high : (...) arrays
+        Ends of the interval, as shares [-].
+
+    Raises
+    ------
+    FddbenchError
+        Hits outside 0 to trials, or no trial at all.
+
+    Examples
+    --------
+    >>> low, high = beta_interval(1.8754, 28.131)
+    >>> round(float(low), 4), round(float(high), 4)
+    (0.0074, 0.2279)
+    """
+    from scipy.special import betaincinv
+
+    x, n = np.broadcast_arrays(np.asarray(hits, dtype=np.float64), np.asarray(trials, dtype=np.float64))
+    tail = _tail(confidence)
+    if not np.all((x >= 0) & (x <= n) & (n > 0)):
+        raise FddbenchError(f"need 0 <= hits <= trials and trials > 0, got {hits=}, {trials=}")
+    low = np.where(x > 0, betaincinv(np.where(x > 0, x, 1.0), n - x + 1.0, tail), 0.0)
+    high = np.where(x < n, betaincinv(x + 1.0, np.where(x < n, n - x, 1.0), 1.0 - tail), 1.0)
     return low, high
 
 
@@ -66,8 +102,8 @@ def poisson_rate(events: npt.ArrayLike, hours: npt.ArrayLike, confidence: float 
 
     Parameters
     ----------
-    events : int or (...) array
-        Counted events.
+    events : float or (...) array
+        Counted events, or their effective number, which need not be whole.
     hours : float or (...) array
         Exposure [h].
     confidence : float
@@ -102,7 +138,7 @@ def poisson_rate(events: npt.ArrayLike, hours: npt.ArrayLike, confidence: float 
             f"need events >= 0 and hours > 0, got {events=}, {hours=}; "
             "with no exposure there is no rate: callers show the count and leave the interval empty"
         )
-    low = np.where(k > 0, gammaincinv(np.maximum(k, 1.0), tail), 0.0) / t
+    low = np.where(k > 0, gammaincinv(np.where(k > 0, k, 1.0), tail), 0.0) / t
     return low, gammaincinv(k + 1.0, 1.0 - tail) / t
 
 

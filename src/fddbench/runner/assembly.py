@@ -1,4 +1,4 @@
-"""A campaign made ready to fly: its closed loop, its detectors, and batches of cases with all their constants."""
+"""What flies the cases of a campaign: its closed loop, its detectors, and batches of cases with all their constants."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -10,16 +10,13 @@ import numpy.typing as npt
 from fddbench.blocks import philox
 from fddbench.blocks.consumers import fault_number
 from fddbench.blocks.drawn import Draws
-from fddbench.campaign.meaning import Campaign
-from fddbench.campaign.plan import Plan, PlannedScenario, plan
+from fddbench.campaign.plan import Plan, PlannedScenario
 from fddbench.designs.adapted import Adapted
-from fddbench.designs.building import build_detectors
 from fddbench.faults.timing import first_samples, last_sample
 from fddbench.interfaces import FlightFaults, Flights, Floats, Loop
 from fddbench.metrics.scoring import NEVER, EventTimes, Scoring
-from fddbench.runner.loops import loop_of, try_loop
 
-__all__ = ["BEFORE_START", "Assembly", "Batch", "assemble", "has_events"]
+__all__ = ["BEFORE_START", "Assembly", "Batch", "has_events"]
 
 Cases = npt.NDArray[np.int64]
 
@@ -100,7 +97,7 @@ class Assembly:
         """Constants and states of cases, a pure function of campaign, seed and case number."""
         scenario, run = self.plan.locate(cases)
         parameters = self.plan.parameters(cases)
-        outside = self._outside(parameters)
+        outside = self._outside(parameters, len(cases))
         streams = np.array([planned.stream for planned in self.plan.scenarios], dtype=np.int64)[scenario]
         n_cases, loop = len(cases), self.loop
         prepared = loop.prepare(
@@ -124,9 +121,9 @@ class Assembly:
             infeasible_reason=tuple(a or b for a, b in zip(outside, prepared.infeasible_reason, strict=True)),
         )
 
-    def _outside(self, parameters: Mapping[str, Floats]) -> list[str]:
+    def _outside(self, parameters: Mapping[str, Floats], n_cases: int) -> list[str]:
         """Why a case cannot be flown: a normal distribution has drawn a value that the benchmark does not have."""
-        reasons = [""] * len(next(iter(parameters.values()), ()))
+        reasons = [""] * n_cases
         for limit in self.plan.plant.parameters:
             drawn = parameters[limit.name]
             for i in np.flatnonzero((drawn < limit.low) | (drawn > limit.high)).tolist():
@@ -193,25 +190,3 @@ class Assembly:
             events=events,
             n_cases=n_cases,
         )
-
-
-def assemble(campaign: Campaign) -> Assembly:
-    """Loop, detectors and scoring of a campaign.
-
-    Raises
-    ------
-    FddbenchError
-        The benchmark cannot be flown with what was chosen, or a design does not make a detector for it.
-    """
-    planned = plan(campaign)
-    loop = loop_of(planned)
-    n_events = max((len(s.faults) for s in planned.scenarios if has_events(s)), default=0)
-    found = build_detectors(campaign.designs, loop.bus)
-    assembly = Assembly(
-        plan=planned,
-        loop=loop,
-        detectors={name: Adapted(detector, loop.bus) for name, detector in found.items()},
-        scoring=Scoring(len(loop.bus.sites), n_events),
-    )
-    try_loop(assembly)
-    return assembly

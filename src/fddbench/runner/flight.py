@@ -74,8 +74,10 @@ class Flyer:
     @lru_cache(maxsize=4)  # noqa: B019  (a flyer lives as long as its process)
     def kernel(self, recorded: tuple[str, ...]) -> kernel.Kernel:
         """Kernel that stores these outputs."""
-        streams = self.fused.draws.streams
-        return kernel.build(self.fused.program(), streams=streams, recorded=recorded, backend="llvm")
+        fused = self.fused
+        return kernel.build(
+            fused.program(), streams=fused.draws.streams, merge=fused.merge_keys(), recorded=recorded, backend="llvm"
+        )
 
     def prepare(self) -> None:
         """Compile what flying without a recording needs, so that threads find it done."""

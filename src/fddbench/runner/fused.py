@@ -1,6 +1,6 @@
 """Everything that can be traced, in one step: loop, detectors and their scores, ready for a kernel."""
 
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 from types import SimpleNamespace
 from typing import Any
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from fddbench.blocks.block import Part
 from fddbench.blocks.drawn import Draws
-from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, record
+from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, leaves, mapped, record
 from fddbench.blocks.program import Program, trace
 from fddbench.designs.adapted import Adapted
 from fddbench.errors import DesignError, FddbenchError, reason_of
@@ -165,6 +165,24 @@ class Fused:
             numbers.append(number)
         flown = Flown(sample=seen, departed=departed, verdicts=tuple(verdicts), numbers=tuple(numbers))
         return FusedState(loop=loop, departed=departed, detectors=tuple(kept), scores=tuple(scores)), flown
+
+    def merge_keys(self) -> list[Hashable]:
+        """One key a state row: equal keys may be flown as one row, if they also change alike.
+
+        Rows of detectors and scores that start with one and the same number share a key; rows of the loop never do.
+        """
+        nowhere = mapped(lambda _: None, self.scoring.constants.shape)  # what depends on constants is no number
+        starts = (
+            *(d.start(Nothing()) for d in self.detectors.values()),
+            *([self.scoring.start(nowhere)] * len(self.detectors)),
+        )
+        layouts = (*(d.states for d in self.detectors.values()), *([self.scoring.states] * len(self.detectors)))
+        keys: list[Hashable] = list(range(self.loop.states.size + 1))
+        for start, layout in zip(starts, layouts, strict=True):
+            for (_, value), rows in zip(leaves(start), layout.counts.values(), strict=True):
+                alike = isinstance(value, float | int)
+                keys += [("start", float(value).hex()) if alike else len(keys) + j for j in range(rows or 1)]
+        return keys
 
     def program(self) -> Program:
         """Traced step; outputs ``state``, ``finished``, ``departed`` and by their names all signals there are."""

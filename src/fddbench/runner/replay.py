@@ -10,14 +10,16 @@ import numpy.typing as npt
 import pandas as pd
 
 from fddbench.blocks.philox import philox4x32
+from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.plan import PlannedScenario
 from fddbench.interfaces import Floats, Recording
 from fddbench.results.folder import provenance_of
-from fddbench.runner.assembly import Assembly, Batch, assemble
+from fddbench.runner.assembling import assemble
+from fddbench.runner.assembly import Assembly, Batch
 from fddbench.runner.flight import Flyer
 from fddbench.runner.work import frozen
 
-__all__ = ["MOST_CASES", "replay", "sampled_cases"]
+__all__ = ["MOST_CASES", "replay", "replay_campaign", "sampled_cases"]
 
 MOST_CASES = 50
 """Cases of a scenario that a picture shows, beside the worst ones."""
@@ -55,21 +57,38 @@ def replay(
     seconds: Mapping[str, float] | None = None,
     signals: Collection[str] | None = None,
 ) -> Iterator[Recording]:
-    """Recordings of cases, scenario by scenario, from the frozen campaign of a folder of results.
+    """Recordings of cases of a folder of results, from its frozen campaign; see `replay_campaign`."""
+    campaign = frozen(folder, provenance_of(folder)["campaign_sha256"])
+    yield from replay_campaign(campaign, cases, seconds=seconds, signals=signals)
+
+
+def replay_campaign(
+    campaign: Campaign,
+    cases: Mapping[str, Cases] | None = None,
+    *,
+    seconds: Mapping[str, float] | None = None,
+    signals: Collection[str] | None = None,
+    scenarios: Collection[str] | None = None,
+) -> Iterator[Recording]:
+    """Recordings of cases, scenario by scenario.
 
     Parameters
     ----------
-    folder : Path
-        Folder of results.
+    campaign : Campaign
+        What flies.
     cases : mapping of str to array, optional
         Case numbers by scenario; all cases by default.
     seconds : mapping of str to float, optional
         By scenario, how long after the onset of its fault the recording stops [s]; to the end by default.
     signals : collection of str, optional
         Measured and true signals to keep; all by default. What the detectors show is always kept.
+    scenarios : collection of str, optional
+        Only these.
     """
-    flyer = Flyer(assemble(frozen(folder, provenance_of(folder)["campaign_sha256"])))
+    flyer = Flyer(assemble(campaign))
     for planned in flyer.assembly.plan.scenarios:
+        if scenarios is not None and planned.name not in scenarios:
+            continue
         chosen = (cases or {}).get(planned.name, np.arange(planned.first_case, planned.first_case + planned.n_runs))
         batch = flyer.assembly.batch(np.asarray(chosen, dtype=np.int64))
         able = np.flatnonzero([reason == "" for reason in batch.infeasible_reason])

@@ -13,7 +13,7 @@ from fddbench.campaign.meaning import Campaign
 from fddbench.results import manifest
 from fddbench.results.folder import claim, locked
 from fddbench.results.provenance import collect
-from fddbench.runner.assembly import assemble
+from fddbench.runner.assembling import assemble
 from fddbench.runner.chunks import CHUNK, COMPILED_CHUNK, cut, missing, spans
 from fddbench.runner.flight import Flyer
 from fddbench.runner.pool import fly_all

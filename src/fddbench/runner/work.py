@@ -17,11 +17,12 @@ from fddbench.metrics.scoring import NEVER
 from fddbench.results.manifest import Shard
 from fddbench.results.schema import EVENTS, rows_schema
 from fddbench.results.shards import write_table
-from fddbench.runner.assembly import Assembly, Batch, assemble, has_events
+from fddbench.runner.assembling import assemble
+from fddbench.runner.assembly import Assembly, Batch, has_events
 from fddbench.runner.chunks import Spans, expand, spans
 from fddbench.runner.flight import Flyer, Outcome
 
-__all__ = ["fly_and_write", "flyer_of", "frozen", "rows_and_events"]
+__all__ = ["fly_and_write", "flyer_of", "frozen", "rows_and_events", "rows_of"]
 
 Columns = dict[str, pa.Array]
 Cases = npt.NDArray[np.int64]
@@ -103,6 +104,12 @@ def rows_and_events(flyer: Flyer, cases: Cases) -> tuple[pa.Table, pa.Table]:
     rows = pa.concat_tables(parts)
     in_order = np.lexsort((np.concatenate(rank), rows["case"].to_numpy()))
     return rows.take(pa.array(in_order)).combine_chunks(), pa.concat_tables(events).combine_chunks()
+
+
+def rows_of(assembly: Assembly, batch: Batch, outcome: Outcome | None, detector: str) -> pa.Table:
+    """Rows of one detector on a batch."""
+    schema = rows_schema([parameter.name for parameter in assembly.plan.plant.parameters])
+    return pa.Table.from_pydict(_columns(assembly, batch, outcome, detector), schema=schema)
 
 
 def _columns(assembly: Assembly, batch: Batch, outcome: Outcome | None, detector: str) -> Columns:

@@ -9,6 +9,7 @@ from fddbench.benchmarks.yaw_rate.parameters import PARAMETERS, REFUSED
 from fddbench.benchmarks.yaw_rate.plant import SITES, Motion
 from fddbench.blocks.block import NO_DRAWS
 from fddbench.blocks.functions import asin, cos, interpolate, sin
+from fddbench.blocks.integrate import rk4
 from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, record
 from fddbench.blocks.linear import column, product
 from fddbench.flight.actuators import Actuators
@@ -149,7 +150,8 @@ class LateralLpvPlant:
         A, B = model.matrices(model.rho(c.mass_kg, c.x_cg_ratio, c.altitude_ft, c.v_cas_kt))
         delta = (c.delta_c_y, c.delta_c_l, c.delta_c_n)
         M, f = derivatives(A, B, surface_deg, u0_m_s=c.u0_m_s, w0_m_s=c.w0_m_s, gust_m_s=gust_m_s, delta=delta)
-        flown = self._integrated(M, f, np.stack([x.phi_rad, x.v_y_m_s, x.p_rad_s, x.r_rad_s]))
+        begun = np.stack([x.phi_rad, x.v_y_m_s, x.p_rad_s, x.r_rad_s])
+        flown = rk4(_derivative, begun, M, f, step_s=self.sample_s, substeps=self.substeps)
         drift = c.v_tas_m_s * sin(x.psi_rad) + x.v_y_m_s * cos(x.psi_rad)
         after = LateralState(
             phi_rad=flown[0],
@@ -160,17 +162,6 @@ class LateralLpvPlant:
             y_m=x.y_m + self.sample_s * drift,
         )
         return after, self._motion(x, c, gust_m_s, sample)
-
-    def _integrated(self, M: Rows, f: Rows, x: Rows) -> Rows:
-        """``xdot = M x + f`` over one sample by Runge-Kutta 4 in `substeps` steps, (4, n_cases)."""
-        h = self.sample_s / self.substeps
-        for _ in range(self.substeps):
-            k1 = product(M, x) + f
-            k2 = product(M, x + (0.5 * h) * k1) + f
-            k3 = product(M, x + (0.5 * h) * k2) + f
-            k4 = product(M, x + h * k3) + f
-            x = x + (h / 6.0) * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
-        return x
 
     def _motion(self, x: LateralState, c: LateralConstants, gust_m_s: Row, sample: Row) -> Motion:
         """What there is to measure and to show of this sample."""
@@ -189,6 +180,11 @@ class LateralLpvPlant:
             bank_command_deg=interpolate(sample * self.sample_s, c.knots_s, c.bank_deg),
             departed=~(np.abs(x.phi_rad) <= _DEPARTED_RAD),
         )
+
+
+def _derivative(x: Rows, M: Rows, f: Rows) -> Rows:
+    """``xdot = M x + f``, (4, n_cases)."""
+    return product(M, x) + f
 
 
 def _measured(parameters: Mapping[str, Floats]) -> dict[str, Floats]:

@@ -12,7 +12,7 @@ from fddbench.reporting.page import ReportData
 from fddbench.reporting.published import iterations_for, published_for
 from fddbench.results.folder import provenance_of
 from fddbench.results.table import load, load_events
-from fddbench.runner.assembly import assemble
+from fddbench.runner.assembling import assemble
 from fddbench.runner.load import detector_load, in_words
 from fddbench.runner.replay import replay, sampled_cases
 from fddbench.runner.work import frozen

@@ -1,0 +1,75 @@
+"""Campaigns: read one, see what it would fly, fly it."""
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from fddbench.campaign.load import read_campaign
+from fddbench.campaign.meaning import Campaign
+from fddbench.campaign.plan import Plan
+from fddbench.campaign.plan import plan as planned
+from fddbench.runner.run import Progress, RunReport, run_campaign
+
+__all__ = ["plan", "read", "run"]
+
+
+def read(path: str | Path, overrides: Sequence[str] = ()) -> Campaign:
+    """Campaign of a file, or of a shipped campaign's bare name.
+
+    Parameters
+    ----------
+    path : str or Path
+        File, or a bare name such as ``"smoke"``.
+    overrides : sequence of str
+        ``path=value`` texts as of ``fddbench run --set``, e.g. ``["dispersions.monte_carlo.runs=5"]``.
+
+    Raises
+    ------
+    fddbench.errors.CampaignError
+        Every mistake in it, with its place.
+
+    Examples
+    --------
+    >>> read("smoke", ["detectors=[voting_monitor]"]).name
+    'smoke'
+    """
+    return read_campaign(Path(path), overrides)
+
+
+def plan(campaign: Campaign | str | Path) -> Plan:
+    """Case table of a campaign: scenarios with their lengths, onsets, limits and numbers of flights.
+
+    >>> plan("smoke").n_cases
+    55
+    """
+    return planned(campaign if isinstance(campaign, Campaign) else read(campaign))
+
+
+def run(
+    campaign: Campaign | str | Path,
+    folder: str | Path | None = None,
+    *,
+    jobs: int = 2,
+    fresh: bool = False,
+    backend: str = "auto",
+    progress: Callable[[Progress], None] | None = None,
+    notice: Callable[[str], None] | None = None,
+) -> RunReport:
+    """Fly every case of a campaign that its folder of results does not hold yet.
+
+    Parameters
+    ----------
+    campaign : Campaign, str or Path
+        As read, or what `read` takes.
+    folder : str or Path, optional
+        Where the results go, ``results/<name>`` by default.
+    jobs, fresh, backend, progress, notice
+        See `fddbench.runner.run.run_campaign`.
+
+    Raises
+    ------
+    fddbench.errors.FddbenchError
+        A mistake in the campaign, or a folder of another campaign.
+    """
+    own = campaign if isinstance(campaign, Campaign) else read(campaign)
+    where = Path("results") / own.name if folder is None else Path(folder)
+    return run_campaign(own, where, jobs=jobs, fresh=fresh, backend=backend, progress=progress, notice=notice)

@@ -1,0 +1,1 @@
+"""Languages that a plan can be written in."""
