@@ -4,11 +4,12 @@ Every message names the place, what was received, what is allowed and what to do
 ``__init__`` of their own, because only those survive the way back from a worker process.
 """
 
+import sysconfig
+import traceback
 from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
-from traceback import extract_tb
 
 __all__ = [
     "CampaignError",
@@ -50,12 +51,14 @@ def reason_of(error: BaseException) -> str:
     return whole if len(whole) <= _LONGEST else whole[: _LONGEST - 3] + "..."
 
 
-def place_of(error: BaseException, folders: Iterable[Path], otherwise: str = "") -> str:
-    """Line that raised, the innermost in a file of one of these folders, in brackets; the other place where there is none."""
-    known = {folder.resolve() for folder in folders}
-    frames = [f for f in extract_tb(error.__traceback__) if Path(f.filename).resolve().parent in known]
-    place = f"{frames[-1].filename}:{frames[-1].lineno}" if frames else otherwise
-    return f" ({place})" if place else ""
+def place_of(error: BaseException) -> str:
+    """Innermost line of foreign code that an exception passed, in brackets; "" where it passed none."""
+    ours = (Path(__file__).parent, *map(Path, (sysconfig.get_path("purelib"), sysconfig.get_path("stdlib"))))
+    every = traceback.extract_tb(error.__traceback__)
+    foreign = [f for f in every if not Path(f.filename).is_relative_to(ours[0])]
+    # a package of somebody else's is installed like NumPy; where nothing lies outside, it is the one
+    frames = [f for f in foreign if not any(Path(f.filename).is_relative_to(folder) for folder in ours)] or foreign
+    return f" ({frames[-1].filename}:{frames[-1].lineno})" if frames else ""
 
 
 class FddbenchError(Exception):

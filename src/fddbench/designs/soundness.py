@@ -1,6 +1,7 @@
 """Whether what `from_design` gave is a detector, before anything is flown with it."""
 
 import pickle
+import traceback
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -9,10 +10,10 @@ import numpy as np
 
 from fddbench.blocks.layout import Layout, Nothing
 from fddbench.designs.adapted import Adapted
-from fddbench.errors import DesignError, did_you_mean, place_of, reason_of
+from fddbench.errors import DesignError, did_you_mean, reason_of
 from fddbench.interfaces import Bus, Floats
 
-__all__ = ["place_in", "unsound"]
+__all__ = ["line_of", "unsound"]
 
 _TRIALS = 3
 
@@ -49,7 +50,7 @@ def _tried(detector: Any, bus: Bus) -> str:
     try:
         state = adapted.states.spread(adapted.start(Nothing()), 2)
     except (Exception, SystemExit) as error:
-        return f"its start is no record of its states: {reason_of(error)}{place_in(error, detector, 'start')}"
+        return f"its start is no record of its states: {reason_of(error)}{line_of(error, detector, 'start')}"
     normals = adapted.draws.unpack(np.zeros((adapted.draws.size, 2)))
     with np.errstate(all="ignore"):
         for trial in range(_TRIALS):
@@ -59,13 +60,13 @@ def _tried(detector: Any, bus: Bus) -> str:
             try:
                 state, _ = adapted.step(state, Nothing(), normals, measured)
             except DesignError as error:
-                return f"{error}{place_in(error, detector, 'step')}"
+                return f"{error}{line_of(error, detector, 'step')}"
             except (Exception, SystemExit) as error:
-                return f"its step raised {reason_of(error)}{_missing(error, bus)}{place_in(error, detector, 'step')}"
+                return f"its step raised {reason_of(error)}{_missing(error, bus)}{line_of(error, detector, 'step')}"
             try:
                 adapted.states.check(state, 2)
             except TypeError as error:
-                return f"its step gives no record of its states: {error}{place_in(error, detector, 'step')}"
+                return f"its step gives no record of its states: {error}{line_of(error, detector, 'step')}"
     return ""
 
 
@@ -84,12 +85,16 @@ def _missing(error: BaseException, bus: Bus) -> str:
     return f". Measured are {', '.join(bus.signals)}{'. ' + close if close else ''}"
 
 
-def place_in(error: BaseException, detector: Any, method: str) -> str:
+def line_of(error: BaseException, detector: Any, method: str) -> str:
     """Line of the author's code that raised, in brackets; where nothing raised, that of the method itself."""
     code = getattr(getattr(detector, method, None), "__code__", None)
     if code is None:
         return ""
-    return place_of(error, [Path(code.co_filename).parent], f"{code.co_filename}:{code.co_firstlineno}")
+    own = Path(code.co_filename).parent
+    frames = [frame for frame in traceback.extract_tb(error.__traceback__) if Path(frame.filename).is_relative_to(own)]
+    if frames:
+        return f" ({frames[-1].filename}:{frames[-1].lineno})"
+    return f" ({code.co_filename}:{code.co_firstlineno})"
 
 
 def _fingerprint(detector: Any) -> bytes | None:

@@ -5,7 +5,7 @@ import os
 import re
 import shutil
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from difflib import unified_diff
 from pathlib import Path
 
@@ -22,7 +22,7 @@ RESERVED = frozenset(_OURS) - {"detectors"}
 _LEFT = re.compile(r"\..+\.[0-9]+\.tmp")
 """What a crash in the middle of a write leaves behind."""
 _PLUGIN = re.compile(r"[A-Za-z_][A-Za-z0-9_-]*(\.[A-Za-z0-9_-]+)*")
-"""Name of a file of a plug-in beside a campaign; never a way out of the folder."""
+"""Part of the name of a file of a plug-in beside a campaign; never a way out of the folder."""
 
 
 def claim(folder: Path, *, files: Mapping[str, bytes], provenance: Mapping[str, object], fresh: bool) -> bool:
@@ -66,7 +66,7 @@ def refuse_foreign(folder: Path) -> None:
     """
     if folder.is_dir():
         names = sorted(path.name for path in folder.iterdir())
-        ours = {*_OURS, *_carried(folder)}
+        ours = {*_OURS, *(name.parts[0] for name in _carried(folder))}
         foreign = [name for name in names if name not in ours and not _LEFT.fullmatch(name)]
         if foreign:
             more = ", ..." if len(foreign) > 3 else ""
@@ -77,13 +77,14 @@ def refuse_foreign(folder: Path) -> None:
         raise ResultsError(f"{folder} is a file, no folder of results; name another with --out")
 
 
-def _carried(folder: Path) -> set[str]:
+def _carried(folder: Path) -> list[Path]:
     """Names in the folder of what the campaign's own kinds came from, as its provenance lists them."""
     try:
         listed = provenance_of(folder).get("files")
     except ResultsError:
-        return set()
-    return {name for name in listed if _PLUGIN.fullmatch(name)} if isinstance(listed, dict) else set()
+        return []
+    names = [Path(name) for name in listed] if isinstance(listed, dict) else []
+    return [name for name in names if name.parts and all(_PLUGIN.fullmatch(part) for part in name.parts)]
 
 
 def _put_back(folder: Path, files: Mapping[str, bytes]) -> None:
@@ -157,7 +158,12 @@ def locked(folder: Path) -> Iterator[None]:
 
 def _clear(folder: Path) -> None:
     """Remove what fddbench writes, and nothing else; a link is removed, not what it points to."""
-    for name in (*_carried(folder), *_WRITTEN):
+    for carried in _carried(folder):
+        (folder / carried).unlink(missing_ok=True)
+        for parent in carried.parents[:-1]:  # folders that are empty now
+            with suppress(OSError):
+                (folder / parent).rmdir()
+    for name in _WRITTEN:
         path = folder / name
         if path.is_dir() and not path.is_symlink():
             shutil.rmtree(path)

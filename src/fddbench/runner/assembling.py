@@ -1,14 +1,58 @@
 """From a campaign to what flies it."""
 
+from typing import Any
+
 from fddbench.campaign.meaning import Campaign
-from fddbench.campaign.plan import plan
+from fddbench.campaign.plan import Plan, plan
 from fddbench.designs.adapted import Adapted
 from fddbench.designs.building import build_detectors
+from fddbench.errors import FddbenchError, place_of, reason_of
+from fddbench.interfaces import Loop, Options
 from fddbench.metrics.scoring import Scoring
+from fddbench.plugin_files import noticed_reads
 from fddbench.runner.assembly import Assembly, has_events
-from fddbench.runner.loops import loop_of, try_loop
+from fddbench.runner.soundness import require_sound
 
-__all__ = ["assemble"]
+__all__ = ["assemble", "loop_of"]
+
+
+def loop_of(planned: Plan) -> Loop:
+    """Closed loop of a campaign's benchmark with its options.
+
+    Raises
+    ------
+    FddbenchError
+        The benchmark refuses a choice, or is somebody else's and raises what it likes.
+    """
+    campaign = planned.campaign
+    options = Options(
+        chosen=campaign.chosen,
+        sample_s=campaign.sample_s,
+        substeps=campaign.substeps,
+        faults=tuple(scenario.faults for scenario in planned.scenarios),
+    )
+    try:
+        with noticed_reads(campaign.path.parent) as read:
+            loop = campaign.bench.loop(options)
+    except FddbenchError:
+        raise
+    except (Exception, SystemExit) as error:
+        raise FddbenchError(
+            f"benchmark {campaign.benchmark!r} cannot make its loop: {reason_of(error)}{place_of(error)}"
+        ) from error
+    stray = sorted(set(read) - set(campaign.beside))
+    if stray and campaign.beside:
+        raise FddbenchError(
+            f"benchmark {campaign.benchmark!r} reads {', '.join(stray)} beside the campaign, which would not travel with the "
+            f"results; declare it in its Python file: FILES = ({', '.join(map(repr, stray))},)"
+        )
+    return loop
+
+
+def _foreign(part: Any) -> bool:
+    """Whether a class, or the class of a value, is somebody else's."""
+    module = getattr(part, "__module__", None) or type(part).__module__
+    return not module.startswith(("fddbench.", "builtins"))
 
 
 def assemble(campaign: Campaign) -> Assembly:
@@ -16,8 +60,8 @@ def assemble(campaign: Campaign) -> Assembly:
 
     Raises
     ------
-    FddbenchError
-        The benchmark cannot be flown with what was chosen, or a design does not make a detector for it.
+    CampaignError
+        A design does not make a detector for this benchmark.
     """
     planned = plan(campaign)
     loop = loop_of(planned)
@@ -29,5 +73,7 @@ def assemble(campaign: Campaign) -> Assembly:
         detectors={name: Adapted(detector, loop.bus) for name, detector in found.items()},
         scoring=Scoring(len(loop.bus.sites), n_events),
     )
-    try_loop(assembly)
+    faults = [fault for scenario in campaign.scenarios for fault in scenario.faults]
+    if any(map(_foreign, (campaign.bench, campaign.plant, loop, *campaign.chosen.values(), *faults))):
+        require_sound(assembly)
     return assembly
