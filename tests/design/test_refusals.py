@@ -88,7 +88,7 @@ def test_references(engine):
 
 def test_faults_that_drown(engine):
     drowned = replace(engine, Dd=100.0 * engine.Dd)
-    refused("a residual that is always zero has 1", drowned, IDENTITY)
+    refused("always zero has gamma 1, and no filter .* has less than 0.99.* at 0 rad/s proves it", drowned, IDENTITY)
 
 
 def test_solvers(engine, monkeypatch):
@@ -96,7 +96,12 @@ def test_solvers(engine, monkeypatch):
     if "MOSEK" not in __import__("cvxpy").installed_solvers():
         refused("MOSEK is not installed", engine, IDENTITY, solver="MOSEK")
     monkeypatch.setitem(solvers.SOLVERS, "SCS", {"eps": 1e-9, "max_iters": 20})
-    refused("SCS stopped with status 'optimal_inaccurate'.*what a solver doubts", engine, IDENTITY, solver="SCS")
+    refused(
+        "SCS .status 'optimal_inaccurate'. did not find .* is no proof .* what a solver doubts",
+        engine,
+        IDENTITY,
+        solver="SCS",
+    )
 
 
 def test_importing_the_package_does_not_import_cvxpy():

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from fddbench.design.lmi import EPSILON, FilterVariables, Solution, upper_part
+from fddbench.design.lmi import FilterVariables, Margins, Solution, upper_part
 from fddbench.design.multipliers import MultiplierVariables
 from fddbench.design.problem import Augmented
 from fddbench.design.solver import modelling, solve
@@ -78,6 +78,7 @@ def inequality_about(
     gamma: Any,
     about: tuple[Solution, StateSpace],
     scale: float,
+    margins: Margins,
 ) -> list[Any]:
     """Constraint (66): (37) linearised about a solution and its reference, with ``scale Q, R / scale`` for Q, R.
 
@@ -88,7 +89,7 @@ def inequality_about(
     frozen = np.zeros_like(about[1].A), np.zeros_like(about[1].B)
     quadruple = augmented.with_reference(*frozen, reference.C, reference.D)
     half = upper_part(augmented, quadruple, variables, multiplier, gamma)
-    margin = EPSILON * np.eye(half.shape[0])
+    margin = margins.of_rows(half.shape[0], gamma)
     if not augmented.n_ref:
         return [half + half.T << -margin]
     Q, R = _bilinear(augmented, variables, reference.A, reference.B, half.shape[0], cp.bmat)
