@@ -8,7 +8,10 @@ from fddbench.design.uncertainty import Block, NormBounded, Polytope, Structured
 from fddbench.errors import DesignError
 from fddbench.systems import StateSpace, UncertainPlant
 
-__all__ = ["require_admissible"]
+__all__ = ["IDLE", "require_admissible"]
+
+IDLE = 0.99
+"""Share of the γ of a zero residual [-] above which a filter is refused: it would hardly differ from zero."""
 
 
 def require_admissible(
@@ -17,6 +20,9 @@ def require_admissible(
     uncertainty: Uncertainty,
     blocks: tuple[Block, ...],
     solver: str,
+    *,
+    W_f: StateSpace,
+    idle: float,
 ) -> None:
     """Refuse references that cannot be followed and plants outside Problem 1.
 
@@ -32,14 +38,14 @@ def require_admissible(
         Structure of Δ.
     solver : str
         Solver by name, used where stability needs an inequality of its own.
+    W_f : StateSpace
+        Weight of the faults.
+    idle : float
+        γ of the residual that is always zero [-].
     """
-    if not reference.stable():
-        raise DesignError(
-            f"the reference is unstable: poles {np.round(reference.poles(), 4)}; give A_ref negative eigenvalues."
-        )
     for number, plant in enumerate(plants):
         name = f"vertex {number}" if isinstance(uncertainty, Polytope) else "the plant"
-        _require_rank(plant, reference, name)
+        _require_rank(plant, reference, W_f, idle, name)
         poles = np.linalg.eigvals(plant.A)
         if np.any(poles.real >= 0.0):
             raise DesignError(
@@ -52,16 +58,17 @@ def require_admissible(
         _require_small_gain(plants[0], uncertainty, blocks, solver)
 
 
-def _require_rank(plant: UncertainPlant, reference: StateSpace, name: str) -> None:
+def _require_rank(plant: UncertainPlant, reference: StateSpace, W_f: StateSpace, idle: float, name: str) -> None:
     """Refuse a Df that is blind to what the reference asks for at infinite frequency (text before section 3)."""
-    values = np.linalg.svd(plant.Df, compute_uv=False)
-    rank = int(np.sum(values > 1e-9 * values.max(initial=0.0)))
-    unseen = reference.D - reference.D @ np.linalg.pinv(plant.Df, rcond=1e-9) @ plant.Df
-    if rank < plant.Df.shape[1] and np.linalg.norm(unseen) > 1e-9 * np.linalg.norm(reference.D):
+    seen, wanted = plant.Df @ W_f.D, reference.D @ W_f.D
+    unseen = float(np.linalg.norm(wanted - wanted @ np.linalg.pinv(seen, rcond=1e-9) @ seen, 2)) if wanted.size else 0.0
+    if unseen > 0.0 and unseen >= IDLE * idle:
+        values = np.linalg.svd(plant.Df, compute_uv=False)
+        rank = int(np.sum(values > 1e-9 * values.max(initial=0.0)))
         raise DesignError(
             f"Df of {name} has rank {rank} for {plant.Df.shape[1]} faults (singular values {np.round(values, 6)}), but "
-            "D_ref asks for faults that no output shows at once: gamma would stay at ‖D_ref‖ and the best residual at "
-            "zero.\n"
+            f"D_ref asks for faults that no output shows at once: no filter has a gamma below {unseen:.4g}, and a residual "
+            f"that is always zero has {idle:.4g}.\n"
             "Use a strictly proper fixed reference, e.g. StateSpace.diagonal([-1], [1], [1], [0]), or measure those "
             "faults directly."
         )

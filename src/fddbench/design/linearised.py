@@ -36,6 +36,21 @@ class Freedom:
         A, C, D = (np.eye(*M.shape) != 0.0 for M in (reference.A, reference.C, reference.D))
         return cls(A=A, B=np.zeros(reference.B.shape, dtype=bool), C=C, D=D)
 
+    @classmethod
+    def triangular(cls, reference: StateSpace) -> "Freedom":
+        """Entries on and below the diagonal of A, C and D, or above, where C or D has some there; a diagonal stays one.
+
+        A reference with entries on both sides is free everywhere. B is fixed.
+        """
+        used = [M for M in (reference.A, reference.C, reference.D) if M.size]
+        below, above = (any(np.any(side(M, k) != 0.0) for M in used) for side, k in ((np.tril, -1), (np.triu, 1)))
+        shapes = {name: np.ones(getattr(reference, name).shape) for name in "ACD"}
+        masks = {
+            name: (np.eye(*M.shape) + below * np.tril(M, -1) + above * np.triu(M, 1)) != 0.0
+            for name, M in shapes.items()
+        }
+        return cls(B=np.zeros(reference.B.shape, dtype=bool), **masks)
+
 
 class ReferenceVariables:
     """A_ref, B_ref, C_ref, D_ref as cvxpy expressions that are free where `freedom` says so."""

@@ -70,8 +70,12 @@ def prepare(
         )
     blocks = () if isinstance(uncertainty, Polytope) else blocks_of(uncertainty, plant)
     plants = tuple(augment(member, reference, weights) for member in members)
-    require_admissible(members, reference, uncertainty, blocks, solver)
-    idle = idle_gamma(reference, plant, weights)
+    if not reference.stable():
+        raise DesignError(
+            f"the reference is unstable: poles {np.round(reference.poles(), 4)}; give A_ref negative eigenvalues."
+        )
+    idle, W_f = idle_gamma(reference, plant, weights), (weights or Weights()).systems(plant.inputs)[0]
+    require_admissible(members, reference, uncertainty, blocks, solver, W_f=W_f, idle=idle)
     seen = StateSpace.gain(np.eye(plant.inputs[0])) if moving else reference
     coordinates = Coordinates.of(plants[0], seen, blocks, unit=1.0 if moving or not idle else idle)
     return Task(

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from fddbench.design.admissible import IDLE
 from fddbench.design.exact import exact_filter
 from fddbench.design.proof import Proven, Task, prove
 from fddbench.design.solver import attempt, modelling
@@ -14,9 +15,6 @@ SLACKS = (1e-5, 1e-4, 1e-3, 1e-2)
 
 NOTHING = 1e-4
 """Share of the γ of a zero residual [-] below which a filter may follow exactly, which is looked for then."""
-
-IDLE = 0.99
-"""Share of the γ of a zero residual [-] above which a filter is refused: it would hardly differ from zero."""
 
 FLOOR = 0.3
 """``Y - Z ⪰ 0.3 I`` in the second step: gives the jet engine filters with poles between 0.01 and 3 rad/s."""
