@@ -112,7 +112,8 @@ class _Task:
 def _found_reference(design: Design) -> dict[str, Any]:
     """The reference that was chosen."""
     R = design.reference
-    return {"reference": {name: [[_short(x) for x in row] for row in getattr(R, name).tolist()] for name in "ABCD"}}
+    names = "ABCD" if R.order else "D"
+    return {"reference": {name: [[_short(x) for x in row] for row in getattr(R, name).tolist()] for name in names}}
 
 
 def _flown(design: Design) -> Proven:
