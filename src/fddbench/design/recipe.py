@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -164,8 +164,17 @@ def _exact_inverse(plant: UncertainPlant) -> Filter:
 
 def _gains(filter_: Filter, recipe: Recipe) -> dict[str, Any]:
     """Gains of a `hinf_filter` with thresholds that nobody has tuned yet."""
+    if not len(filter_.Ak):
+        filter_ = _with_a_state(filter_)
     names = {"A": "Ak", "B_y": "Bky", "B_u": "Bku", "C": "Ck", "D_y": "Dky", "D_u": "Dku"}
     gains: dict[str, Any] = {name: getattr(filter_, own).tolist() for name, own in names.items()}
     return gains | {
         "window_s": recipe.window_s, "confirm_s": recipe.confirm_s, "thresholds": [1.0] * len(filter_.Ck),
     }  # fmt: skip
+
+
+def _with_a_state(filter_: Filter) -> Filter:
+    """A static filter with a state that nothing moves and nobody sees: a file cannot say matrices without rows."""
+    n_r, n_y, n_u = len(filter_.Dky), filter_.Dky.shape[1], filter_.Dku.shape[1]
+    idle = {"Ak": -np.eye(1), "Bky": np.zeros((1, n_y)), "Bku": np.zeros((1, n_u)), "Ck": np.zeros((n_r, 1))}
+    return replace(filter_, **idle)

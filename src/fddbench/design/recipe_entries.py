@@ -1,7 +1,7 @@
 """The blocks of a recipe: references, weights and sets of plants as a file writes them, and what they make."""
 
 from collections.abc import Mapping
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field
@@ -147,7 +147,7 @@ class UncertaintyEntry(Strict):
         Vertices: matrices of a plant, or ``{delta: matrix}``, the plant of the recipe at this Δ.
     """
 
-    set: Annotated[str, Field(pattern="^norm_bounded$")] | None = None
+    set: Literal["norm_bounded"] | None = None
     structured: Annotated[tuple[BlockEntry, ...], Field(min_length=1)] | None = None
     polytope: Annotated[tuple[Matrices, ...], Field(min_length=1)] | None = None
 
