@@ -10,7 +10,6 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from fddbench.design.gramians import balancing, coarse, gramian
-from fddbench.design.lmi import Solution
 from fddbench.design.multipliers import Multiplier
 from fddbench.design.problem import Augmented, Filter
 from fddbench.design.uncertainty import Block
@@ -119,10 +118,10 @@ class Coordinates:
             Dku=self.unit * filter_.Dku * u,
         )
 
-    def lyapunov_back(self, solution: Solution) -> Floats:
-        """Pc for the states of plant and filter, (2 n_k, 2 n_k)."""
-        back = block_diag(np.linalg.inv(self.T), np.eye(len(self.T)))
-        return np.asarray(back.T @ solution.lyapunov() @ back * (self.unit / self.rate), dtype=float)
+    def lyapunov_back(self, P: Floats) -> Floats:
+        """Lyapunov matrix for the states of plant and filter, (n_k + n, n_k + n), of one in these coordinates."""
+        back = block_diag(np.linalg.inv(self.T), np.eye(len(P) - len(self.T)))
+        return np.asarray(back.T @ P @ back * (self.unit / self.rate), dtype=float)
 
     def multiplier_back(self, multiplier: Multiplier) -> Multiplier:
         """S and G for the Δ channel of the plant."""

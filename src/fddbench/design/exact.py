@@ -1,14 +1,11 @@
 """Filters that follow their reference exactly: where the measured signals contain the faults at once, no noise added."""
 
 import numpy as np
-from scipy.linalg import block_diag
 
-from fddbench.design.gramians import input_normal
-from fddbench.design.multipliers import Multiplier, MultiplierVariables
-from fddbench.design.problem import Filter, close
+from fddbench.design.analysis import storage
+from fddbench.design.multipliers import Multiplier
+from fddbench.design.problem import Filter
 from fddbench.design.proof import Proven, Task, proved
-from fddbench.design.quadratic import gain_matrix
-from fddbench.design.solver import attempt, modelling
 from fddbench.interfaces import Floats
 
 __all__ = ["exact_filter"]
@@ -30,13 +27,13 @@ def exact_filter(task: Task) -> Proven | None:
     n_y = task.plants[0].n_y
     B, D = R.B @ K, R.D @ K
     filter_ = Filter(Ak=R.A, Bky=B[:, :n_y], Bku=B[:, n_y:], Ck=R.C, Dky=D[:, :n_y], Dku=D[:, n_y:])
-    storage = _storage(task, filter_)
-    if storage is None:
+    found = storage(task, filter_, None)
+    if found is None:
         return None
     for scale in (1e-10, 1e-9, 1e-8, 1e-7, 1e-6):
-        found = _scaled(task, filter_, *storage, scale)
-        if found.certificate.holds:
-            return found
+        exact = _scaled(task, filter_, *found, scale)
+        if exact.certificate.holds:
+            return exact
     return None
 
 
@@ -53,34 +50,9 @@ def _static_inverse(task: Task) -> Floats | None:
     return K if missed <= ROUNDING * np.abs(wanted).max(initial=0.0) else None
 
 
-def _storage(task: Task, filter_: Filter) -> tuple[Floats, Multiplier] | None:
-    """P and multipliers for which every closed loop loses ``V = xᵀPx`` but for ``|v|²``, by the largest margin."""
-    cp = modelling()
-    reference = task.coordinates.reference(task.reference)
-    loops = [close(plant, reference, filter_) for plant in task.scaled]
-    T = input_normal(loops[0].A, np.hstack([loops[0].B, loops[0].Fr1]), share=1e-4)
-    n, inverse, S, t = len(T), np.linalg.inv(T), MultiplierVariables(task.blocks), cp.Variable()
-    P = cp.Variable((n, n), symmetric=True)
-    A = inverse @ loops[0].A @ T
-    conditions = [P >> t * np.eye(n), t <= 0.1]
-    for loop in loops:
-        channel = inverse @ loop.Fr1, loop.Er1 @ T, loop.Er2, loop.H
-        matrix = gain_matrix(P, inverse @ loop.A @ T, inverse @ loop.B, channel, S, 1.0)
-        loss = block_diag(-(A + A.T), np.eye(matrix.shape[0] - n))
-        conditions.append(matrix << -t * loss)
-    if attempt(cp.Problem(cp.Maximize(t), conditions), task.solver, "exact filter") not in (
-        "optimal",
-        "optimal_inaccurate",
-    ):
-        return None
-    return np.asarray(inverse.T @ P.value @ inverse, dtype=float), S.value()
-
-
 def _scaled(task: Task, filter_: Filter, P: Floats, multiplier: Multiplier, scale: float) -> Proven:
     """The filter with everything that proves it times `scale`, which is its γ."""
     c = task.coordinates
-    T = block_diag(np.linalg.inv(c.T), np.eye(len(filter_.Ak)))
-    back = T.T @ P @ T * (scale * c.unit / c.rate)
     small = Multiplier(S_w=scale * multiplier.S_w, S_z=scale * multiplier.S_z, G=scale * multiplier.G)
     used = c.multiplier_back(small) if task.blocks else None
-    return proved(task, c.filter_back(filter_), back, used, scale * c.unit, None)
+    return proved(task, c.filter_back(filter_), c.lyapunov_back(scale * P), used, scale * c.unit, None)

@@ -126,7 +126,7 @@ def prove(task: Task, solution: Solution, multiplier: Multiplier, gamma: float) 
     coordinates = task.coordinates
     used = coordinates.multiplier_back(multiplier) if task.blocks else None
     filter_ = coordinates.filter_back(solution.filter())
-    return proved(task, filter_, coordinates.lyapunov_back(solution), used, gamma, solution)
+    return proved(task, filter_, coordinates.lyapunov_back(solution.lyapunov()), used, gamma, solution)
 
 
 def proved(

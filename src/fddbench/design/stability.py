@@ -10,7 +10,7 @@ from fddbench.design.coordinates import channel_units
 from fddbench.design.gramians import input_normal
 from fddbench.design.multipliers import Multiplier, MultiplierVariables
 from fddbench.design.norms import hinf_norm
-from fddbench.design.quadratic import gain_matrix
+from fddbench.design.quadratic import gain_matrix, stability_loop
 from fddbench.design.solver import attempt, modelling
 from fddbench.design.uncertainty import Block, sample_delta
 from fddbench.errors import DesignError
@@ -69,8 +69,7 @@ def _multipliers(A: Floats, F: Floats, E: Floats, H: Floats, blocks: tuple[Block
     n, (n_z, n_w) = len(A), H.shape
     S, t = MultiplierVariables(blocks), cp.Variable()
     P: Any = cp.Variable((n, n), symmetric=True) if n else np.zeros((0, 0))
-    nothing = np.zeros((n, 0)), (F, E, np.zeros((n_z, 0)), H)
-    matrix = gain_matrix(P, A, *nothing, S, 1.0)
+    matrix = gain_matrix(P, stability_loop(A, F, E, H), S, 1.0)
     margin = block_diag(-(A + A.T), np.eye(n_w + n_z))
     bounded = [S.S_w << np.eye(n_w), *([P >> t * np.eye(n), P << np.eye(n)] if n else [])]
     if (

@@ -3,6 +3,7 @@
 import numpy as np
 
 from fddbench.design.admissible import IDLE
+from fddbench.design.analysis import certified
 from fddbench.design.exact import exact_filter
 from fddbench.design.proof import Proven, Task, prove
 from fddbench.design.solver import attempt, modelling
@@ -10,7 +11,7 @@ from fddbench.errors import DesignError
 
 __all__ = ["moderate", "optimal", "refusal", "refuse_idle"]
 
-SLACKS = (1e-5, 1e-4, 1e-3, 1e-2)
+SLACKS = (1e-5, 1e-4, 1e-3, 1e-2, 5e-2)
 """Steps above the smallest γ that are tried when the solver reaches it only in the limit of infinite gains [-]."""
 
 NOTHING = 1e-4
@@ -39,10 +40,13 @@ def optimal(task: Task) -> Proven:
     if proven is not None and proven.certificate.holds:
         return proven
     for slack in SLACKS if hint < IDLE * task.idle_gamma else ():
-        centred = _centred(task, hint + slack * max(hint, 0.1 * task.idle_gamma), 0.6)
-        if centred is not None and centred.certificate.holds:
+        centred = certified(task, _centred(task, hint + slack * max(hint, 0.1 * task.idle_gamma), 0.6))
+        if centred is not None:
             return centred
-    raise refusal(task, status)
+    stopped = f"status {status!r}"
+    if hint < task.idle_gamma:
+        stopped += f", at gamma about {hint:.4g}, which has no certificate"
+    raise refusal(task, stopped)
 
 
 def _smallest_gamma(task: Task) -> tuple[float, str, Proven | None]:
@@ -62,10 +66,10 @@ def _smallest_gamma(task: Task) -> tuple[float, str, Proven | None]:
 def refuse_idle(task: Task, gamma: float) -> None:
     """Refuse a γ that is not clearly below that of a residual which is always zero, see `refusal`."""
     if gamma >= IDLE * task.idle_gamma:
-        raise refusal(task, "optimal")
+        raise refusal(task, "status 'optimal'")
 
 
-def refusal(task: Task, status: str) -> DesignError:
+def refusal(task: Task, stopped: str) -> DesignError:
     """Why there is no filter: the proof that none beats a zero residual, or that this solver only did not find one."""
     idle = task.idle_gamma
     bound = task.lower_bound()
@@ -80,7 +84,7 @@ def refusal(task: Task, status: str) -> DesignError:
             f"{reasons}"
         )
     return DesignError(
-        f"{task.solver} (status {status!r}) did not find a filter that is better than a residual that is always zero, which "
+        f"{task.solver} ({stopped}) did not find a filter that is better than a residual that is always zero, which "
         f"has gamma {idle:.5g}; that is no proof that there is none: the lower bound is {bound.gamma:.5g}, at "
         f"{bound.frequency:.4g} rad/s, and what a solver doubts proves nothing.\n"
         "Try another solver, weights W_f, W_d, W_u that give f, d and u their sizes, a strictly proper reference, a smaller "
@@ -113,8 +117,7 @@ def _moderate(task: Task, gamma: float, floor: float) -> Proven | None:
     smallest = _smallest(task, gamma, floor)
     if smallest is not None:
         return smallest
-    centred = _centred(task, gamma, 2.0 * floor)
-    return centred if centred is not None and centred.certificate.holds else None
+    return certified(task, _centred(task, gamma, 2.0 * floor))
 
 
 def _smallest(task: Task, gamma: float, floor: float) -> Proven | None:
