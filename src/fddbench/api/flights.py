@@ -54,10 +54,13 @@ def signals(source: Campaign | str | Path, scenario: str, cases: Sequence[int] |
 def score(
     source: Campaign | str | Path,
     cases: Sequence[int],
-    declared: Floats,
+    declared: Floats | None,
     *,
     alarm: Floats | None = None,
     residual: Floats | None = None,
+    estimate: Floats | None = None,
+    estimates: str = "sites",
+    watches: Sequence[str] | None = None,
     name: str = "own",
 ) -> pd.DataFrame:
     """Rows of one's own declarations, scored as those of a detector.
@@ -68,10 +71,17 @@ def score(
         A campaign, its file or name, or a folder of results.
     cases : sequence of int
         Case numbers of flights of one length.
-    declared : (n_time, n_sites, n_cases) array
-        1 where a site is declared at a sample, else 0; sites in the order of the benchmark.
+    declared : (n_time, n_sites, n_cases) array or None
+        1 where a site is declared at a sample, else 0; sites in the order of the benchmark. None: something that only
+        detects, scored by its alarm.
     alarm, residual : (n_time, n_cases) arrays, optional
         Alarm (any site declared), and residual over threshold [-] (0).
+    estimate : (n_time, n_sites, n_cases) or (n_time, n_cases) array, optional
+        Size of the fault on each site, or with `estimates` the error of a voted signal, in its unit.
+    estimates : str
+        "sites", or the name of the voted signal.
+    watches : sequence of str, optional
+        Sites that are watched; all by default.
     name : str
         What the detector is called in the rows.
 
@@ -87,8 +97,9 @@ def score(
     """
     assembly = assemble(_campaign(source))
     table = declared_rows(
-        assembly, np.asarray(cases, dtype=np.int64), declared, alarm=alarm, residual=residual, name=name
-    )
+        assembly, np.asarray(cases, dtype=np.int64), declared, alarm=alarm, residual=residual, estimate=estimate,
+        estimates=estimates, watches=watches, name=name,
+    )  # fmt: skip
     frame: pd.DataFrame = table.to_pandas(types_mapper=pd.ArrowDtype)
     return frame
 

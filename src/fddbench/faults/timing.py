@@ -2,12 +2,9 @@
 
 from collections.abc import Sequence
 
-from fddbench.interfaces import Fault
+from fddbench.interfaces import NEVER, Fault
 
 __all__ = ["NEVER", "first_samples", "last_onset_s", "last_sample", "samples"]
-
-NEVER = float(2**53)
-"""A sample number that no flight reaches; an exact float64."""
 
 
 def samples(time_s: float, sample_s: float) -> int:

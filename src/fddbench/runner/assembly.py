@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -13,8 +14,9 @@ from fddbench.blocks.drawn import Draws
 from fddbench.campaign.plan import Plan, PlannedScenario
 from fddbench.designs.adapted import Adapted
 from fddbench.faults.timing import first_samples, last_sample
-from fddbench.interfaces import FlightFaults, Flights, Floats, Loop
-from fddbench.metrics.scoring import NEVER, EventTimes, Scoring
+from fddbench.interfaces import NEVER, FlightFaults, Flights, Floats, Loop
+from fddbench.metrics.score import FaultTimes
+from fddbench.metrics.scoring import Scoring
 
 __all__ = ["BEFORE_START", "Assembly", "Batch", "has_events"]
 
@@ -85,13 +87,21 @@ class Assembly:
     detectors : mapping of str to Adapted
         By the names of their designs.
     scoring : Scoring
-        Score of one detector.
+        Score of a detector that isolates all sites and estimates nothing; its constants are those of all detectors.
     """
 
     plan: Plan
     loop: Loop
     detectors: Mapping[str, Adapted]
     scoring: Scoring
+
+    @cached_property
+    def scoring_of(self) -> Mapping[str, Scoring]:
+        """Score of each detector: by its sites or its alarm, with its estimate if it has one."""
+        return {
+            name: self.scoring.of(watches=own.watches, isolates=own.isolates, estimates=own.estimates)
+            for name, own in self.detectors.items()
+        }
 
     def batch(self, cases: Cases) -> Batch:
         """Constants and states of cases, a pure function of campaign, seed and case number."""
@@ -130,10 +140,10 @@ class Assembly:
                 reasons[i] = f"drawn {limit.name} {drawn[i]:g} lies outside {limit.low:g} to {limit.high:g}"
         return reasons
 
-    def nothing_scored(self, batch: Batch) -> Floats:
+    def nothing_scored(self, batch: Batch, scoring: Scoring) -> Floats:
         """Score of a detector that saw nothing of a batch, (n_score, n_cases)."""
-        n_cases, states = len(batch.cases), self.scoring.states
-        begun = self.scoring.start(self.scoring.constants.unpack(batch.score_constants))
+        n_cases, states = len(batch.cases), scoring.states
+        begun = scoring.start(scoring.constants.unpack(batch.score_constants))
         packed: Floats = states.pack(states.spread(begun, n_cases), n_cases)
         return packed
 
@@ -178,15 +188,11 @@ class Assembly:
 
     def _of_scenario(self, planned: PlannedScenario, n_cases: int) -> Floats:
         sample_s, sites = self.plan.campaign.sample_s, self.loop.bus.names
-        events = []
-        for fault in planned.faults if has_events(planned) else ():
-            first = min(first_samples(fault, sites, sample_s))
-            own = np.array([[float(site in fault.sites)] for site in sites])
-            events.append(EventTimes(first=first, last=last_sample(fault, sample_s), own=own))
-        return self.scoring.rows(
-            k0=NEVER if planned.k0 is None else float(planned.k0),
-            n_faulty=planned.n_faulty,
-            last=float(planned.n_samples - 1),
-            events=events,
-            n_cases=n_cases,
-        )
+        faults, faulty_from = [], np.full((len(sites), 1), NEVER)
+        for fault in planned.faults:
+            begins = np.array(first_samples(fault, sites, sample_s))[:, np.newaxis]
+            faulty_from = np.minimum(faulty_from, begins)
+            own = np.where(begins < NEVER, 1.0, 0.0)
+            faults.append(FaultTimes(first=float(begins.min()), last=last_sample(fault, sample_s), own=own))
+        last = float(planned.n_samples - 1)
+        return self.scoring.rows(last=last, faults=faults, faulty_from=faulty_from, n_cases=n_cases)

@@ -61,6 +61,7 @@ class SlidingMode:
 
     about = "LPV sliding-mode observer with flag, adaptive threshold, isolation and energy monitor"
     recorded = ("reconstruction_deg_s", "threshold_deg_s", "deviation_deg_s", "flag_threshold_deg_s")
+    estimates = "r_voted_deg_s"
     Gains = SlidingModeGains
     constants: Layout[Any] = NOTHING
     draws: Draws[Any] = NO_DRAWS
@@ -142,7 +143,7 @@ class SlidingMode:
             "deviation_deg_s": apart,
             "flag_threshold_deg_s": np.full_like(apart, self.gains.flag_threshold_deg_s),
         }
-        return after, Verdict(declared, ratio, signals=shown)
+        return after, Verdict(declared, ratio, signals=shown, estimate=reconstruction)
 
     def _reconstruct(self, x: SlidingModeState, m: SimpleNamespace) -> tuple[Rows, ObserverState, Row]:
         """Lagged inputs, observer state and filtered reconstruction [deg/s].
