@@ -1,13 +1,15 @@
 """Oscillatory failure: a sine on the sensor."""
 
-from typing import ClassVar, Literal, Self
+from collections.abc import Iterator
+from typing import Any, ClassVar, Literal, Self
 
 import numpy as np
 from pydantic import model_validator
 
 from fddbench.blocks.functions import sin
 from fddbench.blocks.layout import Rows, record
-from fddbench.faults.specification import Finite, WithAmplitude, one_of
+from fddbench.faults.specification import Finite, Positive, WithAmplitude, one_of
+from fddbench.faults.varied import Varied, bounds
 from fddbench.interfaces import Floats, Site
 
 __all__ = ["Oscillatory"]
@@ -34,7 +36,7 @@ class Oscillatory(WithAmplitude):
     amplitude_percent, amplitude : float
         Half of the peak-to-peak excursion, of the admissible range [%] or in the unit of the sites; give one.
     frequency_hz, frequency_rad_s : float
-        Frequency; give one.
+        Frequency, above 0 and below half the sampling rate; give one.
     phase_rad : float
         Phase at the onset [rad].
     phase : "uniform"
@@ -45,8 +47,8 @@ class Oscillatory(WithAmplitude):
     profile = Sine
 
     kind: Literal["oscillatory"]
-    frequency_hz: Finite | None = None
-    frequency_rad_s: Finite | None = None
+    frequency_hz: Positive | None = None
+    frequency_rad_s: Positive | None = None
     phase_rad: Finite | None = None
     phase: Literal["uniform"] | None = None
 
@@ -62,5 +64,24 @@ class Oscillatory(WithAmplitude):
         return Sine(
             amplitude=self.size("amplitude", site),
             frequency_rad_s=one_of(frequency_hz=turns, frequency_rad_s=self.frequency_rad_s),
-            phase_rad=2.0 * np.pi * uniform if self.phase else self.phase_rad or 0.0,
+            phase_rad=2.0 * np.pi * uniform if self.phase else 0.0 if self.phase_rad is None else self.phase_rad,
         )
+
+    def unfit(self, sample_s: float) -> Iterator[tuple[str, str]]:
+        """What the clock cannot show: times between samples, and sines that would look like slower ones."""
+        yield from super().unfit(sample_s)
+        for key, limit, unit in (("frequency_hz", 0.5, "Hz"), ("frequency_rad_s", np.pi, "rad/s")):
+            value, most = getattr(self, key), limit / sample_s
+            if value is not None and not bounds(value)[1] < most:
+                yield (
+                    key,
+                    (
+                        f"{key} = {_shown(value)} is not below half the sampling rate: samples of {sample_s:g} s show sines "
+                        f"below {most:.6g} {unit}; lower it or shorten sample_s"
+                    ),
+                )
+
+
+def _shown(value: Any) -> str:
+    """The number, or the largest that is flown."""
+    return f"{value.bounds[1]:g}" if isinstance(value, Varied) else f"{value:g}"

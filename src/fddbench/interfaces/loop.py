@@ -24,7 +24,8 @@ class FlightFaults:
     Attributes
     ----------
     lists : sequence of sequences of Fault
-        The faults of each scenario, in the order of its lines: fault slot 0, 1, …
+        The faults of each scenario, in the order of its lines: fault slot 0, 1, … A number that differs from flight to flight
+        is an array with an entry for each flight of that scenario, in their order.
     which : (n_cases,) array of int
         Scenario of each flight, a position in `lists`.
     uniform : (n_slots, n_sites, n_cases) array

@@ -107,7 +107,11 @@ def _outcome(
         "alarm_time_s": _nullable(seconds(x.raised - start, T), ok & (x.raised < NEVER)),
         "wrong_site_time_s": _nullable(seconds(x.wrong - start, T), ok & wrong),
     }
-    return columns | _detection(met, start=start, limit_s=within, sample_s=T, valid=ok & faulty) | _estimate(x, c, ends, ok)
+    return (
+        columns
+        | _detection(met, start=start, limit_s=within, sample_s=T, valid=ok & faulty)
+        | _estimate(x, c, ends, ok)
+    )
 
 
 def _detection(met: Judged, *, start: Floats, limit_s: Floats, sample_s: float, valid: Booleans) -> Columns:
@@ -157,7 +161,14 @@ def _estimate(x: ScoreState, c: ScoreConstants, ends: Ends, valid: Booleans) -> 
 
 
 def event_columns(
-    scoring: Scoring, score: Floats, constants: Floats, *, event: int, limit_s: Floats, departed: Floats, valid: Booleans
+    scoring: Scoring,
+    score: Floats,
+    constants: Floats,
+    *,
+    event: int,
+    limit_s: Floats,
+    departed: Floats,
+    valid: Booleans,
 ) -> Columns:
     """Outcome, times and estimate of one fault of every case by itself, null where not valid.
 

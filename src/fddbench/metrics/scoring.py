@@ -81,7 +81,7 @@ class Scoring:
         more: dict[str, Any] = {"watches": watches, "isolates": isolates, "estimates": estimates}
         return Scoring(self.sites, self.n_faults, self.sample_s, **more)
 
-    def rows(self, *, last: float, faults: Sequence[FaultTimes], faulty_from: Rows, n_cases: int) -> Floats:
+    def rows(self, *, last: Row, faults: Sequence[FaultTimes], faulty_from: Rows, n_cases: int) -> Floats:
         """Constant rows of flights, (n_rows, n_cases), that end with the sample `last`.
 
         Rows of sites are (n_sites, 1) or (n_sites, n_cases), single ones numbers or (n_cases,).

@@ -35,7 +35,9 @@ _FLAGS = {
 }
 
 NEEDS = (
-    *dict.fromkeys((*distinct.NEEDS, "scenario", "level", "outcome", "n_faulty", "departed_s", "isolated", "over_declared")),
+    *dict.fromkeys(
+        (*distinct.NEEDS, "scenario", "level", "outcome", "n_faulty", "departed_s", "isolated", "over_declared")
+    ),
     *("detection_time_s", "detection_time_limit_s", "normalized_detection_time", "changes"),
     *("estimate_bias", "estimate_rms", "margin_healthy"),
 )

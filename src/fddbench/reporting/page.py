@@ -115,12 +115,20 @@ def _picture(recording: Recording, rows: pd.DataFrame) -> dict[str, Any]:
     here = rows[np.asarray(rows["scenario"] == recording.scenario, dtype=bool)]
     return {
         "scenario": recording.scenario,
-        "onset_s": recording.onset_s,
+        "onset_s": _onsets(recording),
         "shown": len(recording.cases),
         "cases": here["case"].nunique(),
-        "worst": ", ".join(f"{name} case {case}" for name, case in zip(detectors, worst, strict=False)),
+        "worst": ", ".join(f"{name} {case}" for name, case in zip(detectors, worst, strict=False)),
         "png": signals.recording_picture(recording, rows),
     }
+
+
+def _onsets(recording: Recording) -> str | None:
+    """When the faults begin, in words; None in healthy flights."""
+    if recording.onset_s is None:
+        return None
+    first, last = float(np.min(recording.onset_s)), float(np.max(recording.onset_s))
+    return f"{first:g} s" if first == last else f"{first:g} to {last:g} s"
 
 
 def _as_yaml(content: Mapping[str, Any]) -> str:

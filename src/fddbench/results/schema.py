@@ -17,18 +17,21 @@ def _column(name: str, kind: pa.DataType, about: str, *, nullable: bool = True) 
 
 
 _WHO = [
-    _column("case", pa.int64(), "position in the case table; the same flight for every detector", nullable=False),
     _column("scenario", pa.string(), "name of the scenario", nullable=False),
     _column("manoeuvre", pa.string(), "what the aircraft flies", nullable=False),
     _column("fault", pa.string(), "kinds of the faults joined by +; null: healthy flight"),
     _column("point", pa.int64(), "number of the grid and sequence values, the same in every scenario", nullable=False),
     _column("level", pa.int64(), "number of the values that the scenario sweeps; 0 without a sweep", nullable=False),
-    _column("run", pa.int64(), "number of the Monte-Carlo draws, the same air and noise in every scenario", nullable=False),
+    _column(
+        "run", pa.int64(), "number of the Monte-Carlo draws, the same air and noise in every scenario", nullable=False
+    ),
     _column("detector", pa.string(), "name of the design", nullable=False),
     _column("status", pa.string(), "ok or why there is no score: " + ", ".join(STATUSES[1:]), nullable=False),
     _column("reason", pa.string(), "what stands behind a status other than ok"),
     _column("flight_s", pa.float64(), "last sample that was scored [s]"),
-    _column("departed_s", pa.float64(), "sample at which the flight left the limits of its model [s]; null: it did not"),
+    _column(
+        "departed_s", pa.float64(), "sample at which the flight left the limits of its model [s]; null: it did not"
+    ),
 ]
 _OUTCOME = (
     "faulty flight, the first that holds: false_alarm (an alarm before the onset), wrong_site (a site declared that has not "
@@ -48,7 +51,9 @@ _SCORES = [
     _column("false_alarm_time_s", pa.float64(), "from the start to the first alarm before the onset [s]; null: none"),
     _column("alarm_time_s", pa.float64(), "from the onset to the first alarm raised since [s]; null: none"),
     _column("detection_time_s", pa.float64(), "from the onset to when the last fault was found [s]; null: not found"),
-    _column("wrong_site_time_s", pa.float64(), "from the onset to the first site declared that has not been faulty [s]"),
+    _column(
+        "wrong_site_time_s", pa.float64(), "from the onset to the first site declared that has not been faulty [s]"
+    ),
     _column("detection_time_limit_s", pa.float64(), "requirement, counted from the onset [s]; null: healthy flight"),
     _column("normalized_detection_time", pa.float64(), "detection time over its limit [-]; null: not found"),
     _column("isolated", pa.bool_(), "declared sites at the end = faulty sites; null: healthy, or only detects"),
@@ -68,7 +73,9 @@ EVENTS = pa.schema(
         _column("sites", pa.string(), "its sites joined by +", nullable=False),
         _column("onset_s", pa.float64(), "its first faulty sample [s]", nullable=False),
         _column("end_s", pa.float64(), "its first healthy sample again [s]; null: never"),
-        _column("outcome", pa.string(), "right, late, missed, undecided by its own onset, end and limit, or declared_before"),
+        _column(
+            "outcome", pa.string(), "right, late, missed, undecided by its own onset, end and limit, or declared_before"
+        ),
         _column("detection_time_s", pa.float64(), "from its onset to when it was found [s]; null: not found"),
         _column("detection_time_limit_s", pa.float64(), "requirement, counted from its onset [s]"),
         _column("normalized_detection_time", pa.float64(), "detection time over its limit [-]; null: not found"),
@@ -79,7 +86,16 @@ EVENTS = pa.schema(
 )
 
 
-def rows_schema(parameters: Sequence[str]) -> pa.Schema:
-    """Schema of the rows of a benchmark with these parameters (columns ``p_<name>``)."""
+def rows_schema(parameters: Sequence[str], varied: Sequence[str] = ()) -> pa.Schema:
+    """Schema of the rows of a benchmark with these parameters (columns ``p_<name>``).
+
+    `varied` are the columns of what differs between the faults of flights, ``f1_amplitude_percent``.
+    """
+    faults = [_column(name, pa.float64(), _of_fault(name)) for name in varied]
     own = [_column(f"p_{name}", pa.float64(), "true value of the parameter", nullable=False) for name in parameters]
-    return pa.schema([*_WHO, *_SCORES, *own], metadata={"fddbench_schema": SCHEMA_VERSION})
+    return pa.schema([*_WHO, *_SCORES, *faults, *own], metadata={"fddbench_schema": SCHEMA_VERSION})
+
+
+def _of_fault(column: str) -> str:
+    number, _, key = column.removeprefix("f").partition("_")
+    return f"{key} of fault {number} as it was flown; null: this scenario does not vary it"

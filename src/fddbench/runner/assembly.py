@@ -1,6 +1,6 @@
 """What flies the cases of a campaign: its closed loop, its detectors, and batches of cases with all their constants."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -11,12 +11,14 @@ import numpy.typing as npt
 from fddbench.blocks import philox
 from fddbench.blocks.consumers import fault_number
 from fddbench.blocks.drawn import Draws
+from fddbench.campaign.addresses import Addresses
 from fddbench.campaign.plan import Plan, PlannedScenario
 from fddbench.designs.adapted import Adapted
-from fddbench.faults.timing import first_samples, last_sample
-from fddbench.interfaces import NEVER, FlightFaults, Flights, Floats, Loop
+from fddbench.faults.timing import first_samples
+from fddbench.interfaces import NEVER, Fault, FlightFaults, Flights, Floats, Loop
 from fddbench.metrics.score import FaultTimes
 from fddbench.metrics.scoring import Scoring
+from fddbench.runner.faulty import BatchFaults, batch_faults
 
 __all__ = ["BEFORE_START", "Assembly", "Batch", "has_events"]
 
@@ -32,10 +34,14 @@ class Batch:
 
     Attributes
     ----------
-    cases, scenario, run : (n_cases,) arrays
-        Case numbers, positions of their scenarios, and run numbers.
+    cases : (n_cases,) array
+        Numbers of the cases in this plan; no part of any result.
+    scenario, point, level, run : (n_cases,) arrays
+        Their addresses, see `fddbench.campaign.addresses.Addresses`.
     parameters : mapping of str to (n_cases,) arrays
         True parameter values.
+    faults : BatchFaults
+        What was drawn and swept of the faults, and their times.
     state, constants, score_constants : (n_rows, n_cases) arrays
         Of the loop and of the scoring.
     scenario_stream : (n_cases,) array
@@ -46,8 +52,11 @@ class Batch:
 
     cases: Cases
     scenario: Cases
+    point: Cases
+    level: Cases
     run: Cases
     parameters: Mapping[str, Floats]
+    faults: BatchFaults
     state: Floats
     constants: Floats
     score_constants: Floats
@@ -59,8 +68,11 @@ class Batch:
         return Batch(
             cases=self.cases[which],
             scenario=self.scenario[which],
+            point=self.point[which],
+            level=self.level[which],
             run=self.run[which],
             parameters={name: values[which] for name, values in self.parameters.items()},
+            faults=self.faults.take(which),
             state=self.state[:, which],
             constants=self.constants[:, which],
             score_constants=self.score_constants[:, which],
@@ -105,8 +117,9 @@ class Assembly:
 
     def batch(self, cases: Cases) -> Batch:
         """Constants and states of cases, a pure function of campaign, seed and case number."""
-        scenario, run = self.plan.locate(cases)
-        parameters = self.plan.parameters(cases)
+        at, parameters = self.plan.locate(cases), self.plan.parameters(cases)
+        scenario, run = at.scenario, at.run
+        lists, faults = batch_faults(self.plan, at)
         outside = self._outside(parameters, len(cases))
         streams = np.array([planned.stream for planned in self.plan.scenarios], dtype=np.int64)[scenario]
         n_cases, loop = len(cases), self.loop
@@ -114,7 +127,7 @@ class Assembly:
             Flights(
                 parameters=parameters,
                 manoeuvres=[self.plan.scenarios[s].manoeuvre for s in scenario],
-                faults=self._faults(scenario, run, streams),
+                faults=FlightFaults(lists=lists, which=scenario, uniform=self._uniform(run, streams)),
                 normals=self._before(run, streams),
             )
         )
@@ -122,11 +135,14 @@ class Assembly:
         return Batch(
             cases=cases,
             scenario=scenario,
+            point=at.point,
+            level=at.level,
             run=run,
             parameters=parameters,
+            faults=faults,
             state=loop.states.pack(state, n_cases),
             constants=loop.constants.pack(loop.constants.spread(prepared.constants, n_cases), n_cases),
-            score_constants=self._score_rows(scenario),
+            score_constants=self._score_rows(at, lists, faults, self.plan.n_samples(cases)),
             scenario_stream=streams,
             infeasible_reason=tuple(a or b for a, b in zip(outside, prepared.infeasible_reason, strict=True)),
         )
@@ -166,33 +182,30 @@ class Assembly:
         each = [generator((sample, number, run, words[stream]), key) for number, stream in draws.streams]
         return np.concatenate([*each, np.zeros((0, *shape))])
 
-    def _faults(self, scenario: Cases, run: Cases, streams: Cases) -> FlightFaults:
-        """Faults of flights, with a uniform number for every slot and site."""
-        lists = [planned.faults for planned in self.plan.scenarios]
-        slots, sites = max((len(one) for one in lists), default=0), len(self.loop.bus.sites)
+    def _uniform(self, run: Cases, streams: Cases) -> Floats:
+        """A number in (0, 1) for every line, site and flight, (n_lines, n_sites, n_cases): what a fault draws once."""
+        slots = max((len(planned.faults) for planned in self.plan.scenarios), default=0)
+        sites = len(self.loop.bus.sites)
         uniform = np.empty((slots, sites, len(run)))
         for slot in range(slots):
             for site in range(sites):
                 consumer, place = fault_number(slot, site)
                 counter = (BEFORE_START, consumer, run, streams)
                 uniform[slot, site] = philox.uniforms(counter, self.plan.campaign.seed)[place]
-        return FlightFaults(lists=lists, which=scenario, uniform=uniform)
+        return uniform
 
-    def _score_rows(self, scenario: Cases) -> Floats:
+    def _score_rows(
+        self, at: Addresses, lists: Sequence[Sequence[Fault]], faults: BatchFaults, n_samples: Cases
+    ) -> Floats:
         """Constants of the scoring of flights, (n_rows, n_cases)."""
-        rows = np.empty((self.scoring.constants.size, len(scenario)))
-        for s in np.unique(scenario).tolist():
-            mine = scenario == s
-            rows[:, mine] = self._of_scenario(self.plan.scenarios[s], int(mine.sum()))
-        return rows
-
-    def _of_scenario(self, planned: PlannedScenario, n_cases: int) -> Floats:
-        sample_s, sites = self.plan.campaign.sample_s, self.loop.bus.names
-        faults, faulty_from = [], np.full((len(sites), 1), NEVER)
-        for fault in planned.faults:
-            begins = np.array(first_samples(fault, sites, sample_s))[:, np.newaxis]
-            faulty_from = np.minimum(faulty_from, begins)
-            own = np.where(begins < NEVER, 1.0, 0.0)
-            faults.append(FaultTimes(first=float(begins.min()), last=last_sample(fault, sample_s), own=own))
-        last = float(planned.n_samples - 1)
-        return self.scoring.rows(last=last, faults=faults, faulty_from=faulty_from, n_cases=n_cases)
+        sites, n_cases = self.loop.bus.names, len(at.run)
+        begins = np.full((len(faults.first), len(sites), n_cases), NEVER)
+        for s in np.unique(at.scenario).tolist():
+            mine = at.scenario == s
+            for line, fault in enumerate(lists[s]):
+                for row, first in enumerate(first_samples(fault, sites, self.plan.campaign.sample_s)):
+                    begins[line, row, mine] = first
+        own = np.where(begins < NEVER, 1.0, 0.0)
+        each = [FaultTimes(first=faults.first[j], last=faults.last[j], own=own[j]) for j in range(len(faults.first))]
+        faulty_from = begins.min(axis=0, initial=NEVER)
+        return self.scoring.rows(last=n_samples - 1.0, faults=each, faulty_from=faulty_from, n_cases=n_cases)

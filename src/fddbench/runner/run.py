@@ -184,6 +184,7 @@ def _provenance(campaign: Campaign) -> dict[str, object]:
         campaign=campaign.name,
         campaign_sha256=campaign.sha256,
         designs_sha256={design.name: design.sha256 for design in campaign.designs},
+        scenarios=[scenario.name for scenario in campaign.scenarios],
         seed=campaign.seed,
         files=campaign.files(),
     )

@@ -12,7 +12,7 @@ import pyarrow as pa
 from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
 from fddbench.errors import FddbenchError, ResultsError
-from fddbench.interfaces import NEVER, Floats
+from fddbench.interfaces import NEVER
 from fddbench.metrics.rows import event_columns, score_columns, statuses
 from fddbench.metrics.scoring import Scoring
 from fddbench.results.manifest import Shard
@@ -28,7 +28,7 @@ __all__ = ["fly_and_write", "flyer_of", "frozen", "rows_and_events", "rows_of"]
 Columns = dict[str, pa.Array]
 Cases = npt.NDArray[np.int64]
 
-_SHARED = ("case", "scenario", "point", "level", "run", "detector", "status", "reason")
+_SHARED = ("scenario", "point", "level", "run", "detector", "status", "reason")
 _making = Lock()
 
 
@@ -91,25 +91,25 @@ def rows_and_events(flyer: Flyer, cases: Cases) -> tuple[pa.Table, pa.Table]:
     able = np.array([reason == "" for reason in batch.infeasible_reason], dtype=bool)
     flown, grounded = batch.take(np.flatnonzero(able)), batch.take(np.flatnonzero(~able))
     outcome = flyer.fly(flown) if able.any() else None
-    schema = rows_schema([parameter.name for parameter in assembly.plan.plant.parameters])
+    schema = rows_schema([parameter.name for parameter in assembly.plan.plant.parameters], assembly.plan.columns)
     parts: list[pa.Table] = []
     events = [EVENTS.empty_table()]
-    rank: list[Cases] = []
+    order: list[Cases] = []
     for number, detector in enumerate(assembly.detectors):
         for mine, result in ((flown, outcome), (grounded, None)):
             if len(mine.cases):
                 columns = _columns(assembly, mine, result, detector)
                 parts.append(pa.Table.from_pydict(columns, schema=schema))
                 events += _events(assembly, mine, result, detector, columns)
-                rank.append(np.full(len(mine.cases), number))
+                order.append(np.stack([np.full(len(mine.cases), number), mine.cases]))
     rows = pa.concat_tables(parts)
-    in_order = np.lexsort((np.concatenate(rank), rows["case"].to_numpy()))
+    in_order = np.lexsort(np.concatenate(order, axis=1))
     return rows.take(pa.array(in_order)).combine_chunks(), pa.concat_tables(events).combine_chunks()
 
 
 def rows_of(assembly: Assembly, batch: Batch, outcome: Outcome | None, detector: str) -> pa.Table:
     """Rows of one detector on a batch."""
-    schema = rows_schema([parameter.name for parameter in assembly.plan.plant.parameters])
+    schema = rows_schema([parameter.name for parameter in assembly.plan.plant.parameters], assembly.plan.columns)
     return pa.Table.from_pydict(_columns(assembly, batch, outcome, detector), schema=schema)
 
 
@@ -121,7 +121,7 @@ def _columns(assembly: Assembly, batch: Batch, outcome: Outcome | None, detector
     errors = (outcome.errors.get(detector) if outcome else None) or [""] * n_cases
     status, reason = statuses(scoring, score, infeasible=batch.infeasible_reason, errors=errors)
     scores = score_columns(
-        scoring, score, batch.score_constants, limit_s=_limits(assembly, batch), status=status, departed=departed
+        scoring, score, batch.score_constants, limit_s=batch.faults.limit_s, status=status, departed=departed
     )
     said = {"status": pa.array(status, pa.string()), "reason": pa.array(reason, pa.string())}
     return _who(assembly, batch, detector) | said | scores
@@ -131,13 +131,6 @@ def _scoring(assembly: Assembly, outcome: Outcome | None, detector: str) -> Scor
     """How a detector was scored; somebody else's declarations have a scoring of their own."""
     own = None if outcome is None else outcome.scoring.get(detector)
     return own or assembly.scoring_of[detector]
-
-
-def _limits(assembly: Assembly, batch: Batch) -> Floats:
-    """Detection time limit of each flight [s], from its first onset; not-a-number without a fault."""
-    limits = [np.nan if p.limit_s is None else p.limit_s for p in assembly.plan.scenarios]
-    found: Floats = np.array(limits)[batch.scenario]
-    return found
 
 
 def _who(assembly: Assembly, batch: Batch, detector: str) -> Columns:
@@ -150,8 +143,9 @@ def _who(assembly: Assembly, batch: Batch, detector: str) -> Columns:
         "detector": [detector] * len(planned),
     }
     columns = {name: pa.array(known, pa.string()).take(where) for name, known in texts.items()}
-    nothing = pa.array(np.zeros_like(batch.run))
-    columns |= {"case": pa.array(batch.cases), "point": nothing, "level": nothing, "run": pa.array(batch.run)}
+    columns |= {name: pa.array(getattr(batch, name)) for name in ("point", "level", "run")}
+    flown = batch.faults.numbers.items()
+    columns |= {name: pa.array(values, mask=np.isnan(values)) for name, values in flown}
     return columns | {f"p_{name}": pa.array(values) for name, values in batch.parameters.items()}
 
 
@@ -172,15 +166,27 @@ def _events(
             score, departed = outcome.scores[detector], outcome.departed
         ok = np.array([status == "ok" for status in columns["status"].to_pylist()], dtype=bool)
         for number, fault in enumerate(planned.faults):
-            limit_s = np.full(len(mine), planned.event_limits_s[number])
+            limit_s = batch.faults.event_limits_s[number]
             scores = event_columns(
                 scoring, score, batch.score_constants, event=number, limit_s=limit_s, departed=departed, valid=ok
             )
             what: dict[str, Any] = {"event": number + 1, "fault": fault.kind, "sites": "+".join(fault.sites)}
-            what |= {"onset_s": fault.onset_s, "end_s": fault.end_s}
             alike = {
-                name: pa.repeat(pa.scalar(value, EVENTS.field(name).type), int(mine.sum())) for name, value in what.items()
+                name: pa.repeat(pa.scalar(value, EVENTS.field(name).type), int(mine.sum()))
+                for name, value in what.items()
             }
             own = {name: values.filter(pa.array(mine)) for name, values in scores.items()}
-            found.append(pa.Table.from_pydict(shared | alike | own, schema=EVENTS))
+            found.append(
+                pa.Table.from_pydict(shared | alike | _event_times(assembly, batch, number, mine) | own, schema=EVENTS)
+            )
     return found
+
+
+def _event_times(assembly: Assembly, batch: Batch, line: int, mine: npt.NDArray[np.bool_]) -> Columns:
+    """When a fault began and ended in some flights."""
+    sample_s, last = assembly.loop.bus.sample_s, batch.faults.last[line, mine]
+    end_s = np.round((last + 1.0) * sample_s, 9)
+    return {
+        "onset_s": pa.array(np.round(batch.faults.first[line, mine] * sample_s, 9)),
+        "end_s": pa.array(end_s, mask=last == NEVER),
+    }
