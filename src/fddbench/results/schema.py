@@ -23,12 +23,16 @@ _WHO = [
     _column("fault", pa.string(), "kinds of the faults joined by +; null: healthy flight"),
     _column("point", pa.int64(), "number of the grid and sequence values, the same in every scenario", nullable=False),
     _column("level", pa.int64(), "number of the values that the scenario sweeps; 0 without a sweep", nullable=False),
-    _column("run", pa.int64(), "number of the Monte-Carlo draws, the same air and noise in every scenario", nullable=False),
+    _column(
+        "run", pa.int64(), "number of the Monte-Carlo draws, the same air and noise in every scenario", nullable=False
+    ),
     _column("detector", pa.string(), "name of the design", nullable=False),
     _column("status", pa.string(), "ok or why there is no score: " + ", ".join(STATUSES[1:]), nullable=False),
     _column("reason", pa.string(), "what stands behind a status other than ok"),
     _column("flight_s", pa.float64(), "last sample that was scored [s]"),
-    _column("departed_s", pa.float64(), "sample at which the flight left the limits of its model [s]; null: it did not"),
+    _column(
+        "departed_s", pa.float64(), "sample at which the flight left the limits of its model [s]; null: it did not"
+    ),
 ]
 _OUTCOME = (
     "faulty flight, the first that holds: false_alarm (an alarm before the onset), wrong_site (a site declared that has not "
@@ -48,7 +52,9 @@ _SCORES = [
     _column("false_alarm_time_s", pa.float64(), "from the start to the first alarm before the onset [s]; null: none"),
     _column("alarm_time_s", pa.float64(), "from the onset to the first alarm raised since [s]; null: none"),
     _column("detection_time_s", pa.float64(), "from the onset to when the last fault was found [s]; null: not found"),
-    _column("wrong_site_time_s", pa.float64(), "from the onset to the first site declared that has not been faulty [s]"),
+    _column(
+        "wrong_site_time_s", pa.float64(), "from the onset to the first site declared that has not been faulty [s]"
+    ),
     _column("detection_time_limit_s", pa.float64(), "requirement, counted from the onset [s]; null: healthy flight"),
     _column("normalized_detection_time", pa.float64(), "detection time over its limit [-]; null: not found"),
     _column("isolated", pa.bool_(), "declared sites at the end = faulty sites; null: healthy, or only detects"),
@@ -68,7 +74,9 @@ EVENTS = pa.schema(
         _column("sites", pa.string(), "its sites joined by +", nullable=False),
         _column("onset_s", pa.float64(), "its first faulty sample [s]", nullable=False),
         _column("end_s", pa.float64(), "its first healthy sample again [s]; null: never"),
-        _column("outcome", pa.string(), "right, late, missed, undecided by its own onset, end and limit, or declared_before"),
+        _column(
+            "outcome", pa.string(), "right, late, missed, undecided by its own onset, end and limit, or declared_before"
+        ),
         _column("detection_time_s", pa.float64(), "from its onset to when it was found [s]; null: not found"),
         _column("detection_time_limit_s", pa.float64(), "requirement, counted from its onset [s]"),
         _column("normalized_detection_time", pa.float64(), "detection time over its limit [-]; null: not found"),

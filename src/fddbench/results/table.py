@@ -20,7 +20,7 @@ __all__ = ["load", "load_events"]
 def load(folder: str | Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
     """Rows of a campaign, one per case and detector, in the order of cases and of the campaign's detectors.
 
-    Arrow-backed, so that null stays null; the columns explain themselves in ``fddbench.results.schema``.
+    Arrow-backed, so that null stays null. ``frame.attrs["columns"]`` says what each column means, as `fddbench.columns` does.
 
     Parameters
     ----------
@@ -64,4 +64,5 @@ def _sorted(table: pa.Table, folder: Path, by: list[str]) -> pd.DataFrame:
     keys = table.select(by).append_column("_rank", pc.index_in(table["detector"], value_set=names))
     in_order = pc.sort_indices(keys, sort_keys=[(name, "ascending") for name in (by[0], "_rank", *by[1:])])
     frame: pd.DataFrame = table.take(in_order).to_pandas(types_mapper=pd.ArrowDtype)
+    frame.attrs["columns"] = {field.name: (field.metadata or {}).get(b"about", b"").decode() for field in table.schema}
     return frame

@@ -46,7 +46,9 @@ def declared_rows(
     )
     flyer, truth = Flyer(assembly), scoring.truth
     if truth and truth not in flyer.fused.program().outputs:
-        raise FddbenchError(f"an estimate of {estimates!r} cannot be scored: the benchmark does not say what is true of it")
+        raise FddbenchError(
+            f"an estimate of {estimates!r} cannot be scored: the benchmark does not say what is true of it"
+        )
     flown = flyer.fly(batch, [truth] if truth else [])
     score = _scored(scoring, batch, given, flown, n_time=time[0])
     outcome = Outcome(batch=batch, scores={name: score}, departed=flown.departed, scoring={name: scoring})

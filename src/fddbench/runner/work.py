@@ -179,7 +179,8 @@ def _events(
             what: dict[str, Any] = {"event": number + 1, "fault": fault.kind, "sites": "+".join(fault.sites)}
             what |= {"onset_s": fault.onset_s, "end_s": fault.end_s}
             alike = {
-                name: pa.repeat(pa.scalar(value, EVENTS.field(name).type), int(mine.sum())) for name, value in what.items()
+                name: pa.repeat(pa.scalar(value, EVENTS.field(name).type), int(mine.sum()))
+                for name, value in what.items()
             }
             own = {name: values.filter(pa.array(mine)) for name, values in scores.items()}
             found.append(pa.Table.from_pydict(shared | alike | own, schema=EVENTS))
