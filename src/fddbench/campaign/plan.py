@@ -14,8 +14,9 @@ from fddbench.campaign.sampling import parameters, point_radices
 from fddbench.campaign.streams import flight_stream, scenario_stream
 from fddbench.campaign.timing import faulty_sites, flight_s, requirement_s
 from fddbench.campaign.variation import Faults, at_levels, flown, variations
+from fddbench.clock import samples
 from fddbench.errors import FddbenchError, did_you_mean
-from fddbench.faults.timing import latest_onset_s, samples
+from fddbench.faults.timing import latest_onset_s
 from fddbench.interfaces import Floats, Plant
 
 __all__ = ["Plan", "PlannedScenario", "plan"]

@@ -11,8 +11,8 @@ from fddbench.blocks.consumers import FAULT_NUMBERS_0
 from fddbench.blocks.philox import normals, uniforms
 from fddbench.campaign.sampling import Runs, digits
 from fddbench.campaign.streams import name_word
+from fddbench.clock import sample_numbers
 from fddbench.faults.specification import FaultSpecification
-from fddbench.faults.timing import sample_numbers
 from fddbench.faults.varied import Varied
 from fddbench.interfaces import Floats
 

@@ -149,6 +149,14 @@ def _gains(filter_: Filter, recipe: Recipe) -> dict[str, Any]:
     """Gains of a `hinf_filter` with thresholds that nobody has tuned yet."""
     names = {"A": "Ak", "B_y": "Bky", "B_u": "Bku", "C": "Ck", "D_y": "Dky", "D_u": "Dku"}
     gains: dict[str, Any] = {name: getattr(filter_, own).tolist() for name, own in names.items()}
-    return gains | {
-        "window_s": recipe.window_s, "confirm_s": recipe.confirm_s, "thresholds": [1.0] * len(filter_.Ck),
-    }  # fmt: skip
+    gains |= {"window_s": recipe.window_s, "confirm_s": recipe.confirm_s, "thresholds": [1.0] * len(filter_.Ck)}
+    return gains | ({"estimates_faults": True} if _speaks_plainly(recipe) else {})
+
+
+def _speaks_plainly(recipe: Recipe) -> bool:
+    """Whether residual i is made to be fault i itself: an inverse, or a reference that is the identity."""
+    given = recipe.reference
+    if recipe.method == "exact_inverse" or given is None:
+        return recipe.method != "free_reference"
+    identity = (given.a, given.b, given.c) == (None, None, None) and set(given.d) == {1.0}
+    return identity and recipe.method == "fixed_reference"

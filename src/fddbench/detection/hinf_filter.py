@@ -94,8 +94,8 @@ class HinfFilter:
         system = StateSpace(g["A"], np.hstack([g["B_y"], g["B_u"]]), g["C"], np.hstack([g["D_y"], g["D_u"]]))
         self.filter = DiscreteLti.of(system, bus.sample_s)
         self.n_residuals, self.thresholds = len(gains.thresholds), column(gains.thresholds)
-        self.window = max(1, round(gains.window_s / bus.sample_s))
-        self.confirm_samples = samples(gains.confirm_s, bus.sample_s)
+        self.window = int(samples("window_s", gains.window_s, bus.sample_s, least=1))
+        self.confirm_samples = samples("confirm_s", gains.confirm_s, bus.sample_s)
         n, self.watches = self.n_residuals, _watched(bus)
         self.estimates = "sites" if gains.estimates_faults else None
         self.evaluated = tuple(f"mean_{i + 1}" for i in range(n))

@@ -13,7 +13,8 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-from fddbench.faults.timing import first_samples, onset_bounds_s, samples
+from fddbench.clock import samples
+from fddbench.faults.timing import first_samples, onset_bounds_s
 from fddbench.interfaces import Fault, Floats
 
 __all__ = ["orders_of", "pattern_of", "place", "stages"]

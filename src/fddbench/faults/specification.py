@@ -14,7 +14,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validat
 
 from fddbench.errors import FddbenchError
 from fddbench.faults.profile import Profile, ProfileBlock
-from fddbench.faults.timing import misfit
+from fddbench.faults.timing import misfits
 from fddbench.faults.varied import Number, Varied
 from fddbench.interfaces import FaultBlock, Floats, Site
 from fddbench.units import UNITS, unit
@@ -139,10 +139,10 @@ class FaultSpecification(BaseModel):
     def unfit(self, sample_s: float) -> Iterator[tuple[str, str]]:
         """Key and message of every number that a clock of `sample_s` cannot show; a kind may add its own."""
         for key in ("onset_s", "end_s", "delay_s"):
-            yield from ((key, f"{key} {wrong}") for wrong in misfit(getattr(self, key), sample_s))
+            yield from ((key, f"{key} {wrong}") for wrong in misfits(getattr(self, key), sample_s))
         for key in self.lengths:
             unsaid = "" if key in self.model_fields_set else f". It is the default of {self.kind}; say what you mean"
-            yield from ((key, f"{key} {wrong}{unsaid}") for wrong in misfit(getattr(self, key), sample_s, least=1))
+            yield from ((key, f"{key} {wrong}{unsaid}") for wrong in misfits(getattr(self, key), sample_s, least=1))
 
     @classmethod
     def key(cls, name: str) -> str:

@@ -3,35 +3,11 @@
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-import numpy as np
-
+from fddbench.clock import misfit, sample_numbers
 from fddbench.faults.varied import Varied, bounds
-from fddbench.interfaces import NEVER, Fault, Floats
+from fddbench.interfaces import NEVER, Fault
 
-__all__ = [
-    "NEVER",
-    "first_samples",
-    "last_sample",
-    "latest_onset_s",
-    "misfit",
-    "on_clock",
-    "onset_bounds_s",
-    "sample_numbers",
-    "samples",
-]
-
-_CLOCK_TOLERANCE_S = 1e-9
-
-
-def samples(time_s: float, sample_s: float) -> int:
-    """Time in whole samples, the nearest."""
-    return round(time_s / sample_s)
-
-
-def sample_numbers(time_s: Any, sample_s: float) -> Floats:
-    """Times in whole samples, the nearest, as `samples` counts them; of the shape of the times."""
-    counted: Floats = np.rint(np.asarray(time_s, dtype=float) / sample_s)
-    return counted
+__all__ = ["NEVER", "first_samples", "last_sample", "latest_onset_s", "misfits", "onset_bounds_s"]
 
 
 def first_samples(fault: Fault, sites: Sequence[str], sample_s: float) -> list[Any]:
@@ -56,13 +32,8 @@ def latest_onset_s(fault: Fault) -> float:
     return onset_bounds_s(fault, len(fault.sites) - 1)[1]
 
 
-def on_clock(time_s: float, sample_s: float) -> bool:
-    """Whether a time falls on a sample, within 1e-9 s."""
-    return abs(time_s - samples(time_s, sample_s) * sample_s) <= _CLOCK_TOLERANCE_S
-
-
-def misfit(value: Any, sample_s: float, *, least: int = 0) -> Iterator[str]:
-    """What is wrong with times that do not fit the clock, "… = 4.004 falls between …" without the name of the key.
+def misfits(value: Any, sample_s: float, *, least: int = 0) -> Iterator[str]:
+    """What is wrong with the times of a key that do not fit the clock, to be put behind its name.
 
     Parameters
     ----------
@@ -71,10 +42,5 @@ def misfit(value: Any, sample_s: float, *, least: int = 0) -> Iterator[str]:
     least : int
         Fewest samples that it may last.
     """
-    for time_s in value.written if isinstance(value, Varied) else () if value is None else (value,):
-        if time_s < least * sample_s - _CLOCK_TOLERANCE_S:
-            yield f"= {time_s:g} is shorter than a sample of {sample_s:g} s; the shortest is {least * sample_s:.10g} [s]"
-        elif not on_clock(time_s, sample_s):
-            below = int(time_s / sample_s)
-            near = f"{below * sample_s:.10g} and {(below + 1) * sample_s:.10g}"
-            yield f"= {time_s:.10g} falls between two samples of {sample_s:g} s; the nearest are {near} [s]"
+    times = value.written if isinstance(value, Varied) else () if value is None else (value,)
+    yield from filter(None, (misfit(time_s, sample_s, least=least) for time_s in times))

@@ -95,21 +95,21 @@ def _outcome(
     scoring: Scoring, x: ScoreState, c: ScoreConstants, *, limit_s: Floats, ends: Ends, ok: Booleans
 ) -> Columns:
     """Outcome and the times that it stands on."""
-    T, start, faulty = scoring.sample_s, c.k0, c.k0 < NEVER
+    sample_s, start, faulty = scoring.sample_s, c.k0, c.k0 < NEVER
     of_faults, first, last = _faults(x, c)
     within = np.where(faulty, np.round(limit_s, 9), 1.0)
-    met = judged(of_faults, first=first, last=last, start=start, limit_s=within, ends=ends, sample_s=T)
+    met = judged(of_faults, first=first, last=last, start=start, limit_s=within, ends=ends, sample_s=sample_s)
     false_alarm, wrong = x.false_alarm < NEVER, (x.wrong < NEVER) & scoring.isolates
     outcome = np.select([false_alarm, ~faulty, wrong], ["false_alarm", "quiet", "wrong_site"], met.outcome)
     columns: Columns = {
         "outcome": pa.array(outcome.tolist(), pa.string(), mask=~ok),
-        "false_alarm_time_s": _nullable(seconds(x.false_alarm, T), ok & false_alarm),
-        "alarm_time_s": _nullable(seconds(x.raised - start, T), ok & (x.raised < NEVER)),
-        "wrong_site_time_s": _nullable(seconds(x.wrong - start, T), ok & wrong),
+        "false_alarm_time_s": _nullable(seconds(x.false_alarm, sample_s), ok & false_alarm),
+        "alarm_time_s": _nullable(seconds(x.raised - start, sample_s), ok & (x.raised < NEVER)),
+        "wrong_site_time_s": _nullable(seconds(x.wrong - start, sample_s), ok & wrong),
     }
     return (
         columns
-        | _detection(met, start=start, limit_s=within, sample_s=T, valid=ok & faulty)
+        | _detection(met, start=start, limit_s=within, sample_s=sample_s, valid=ok & faulty)
         | _estimate(x, c, ends, ok)
     )
 

@@ -118,6 +118,7 @@ def _line(group: pd.DataFrame) -> dict[str, Value]:
         "failed": len(group) - len(flown) - infeasible,
         "departed": int(np.sum(~np.isnan(_numbers(flown, "departed_s")))),
     }
+    counts["detection_time_limit_s"] = _extreme(np.min, _numbers(group, "detection_time_limit_s"))
     return counts | _outcomes(flown, healthy=healthy) | of_flights(flown) | _times(flown) | _quality(flown)
 
 
@@ -144,10 +145,7 @@ def _times(flown: pd.DataFrame) -> dict[str, Value]:
     if len(time_s):
         at = np.quantile(time_s, list(quantiles.values()), method="inverted_cdf")
         line |= {f"detection_time_{name}_s": float(t) for name, t in zip(quantiles, at, strict=True)}
-    return line | {
-        "detection_time_limit_s": _extreme(np.min, _numbers(flown, "detection_time_limit_s")),
-        "normalized_detection_time_max": _extreme(np.max, _numbers(flown, "normalized_detection_time")),
-    }
+    return line | {"normalized_detection_time_max": _extreme(np.max, _numbers(flown, "normalized_detection_time"))}
 
 
 def _quality(flown: pd.DataFrame) -> dict[str, Value]:

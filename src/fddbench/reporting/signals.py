@@ -43,15 +43,15 @@ def recording_picture(recording: Recording, rows: pd.DataFrame) -> str:
 
 
 def worst_case(recording: Recording, rows: pd.DataFrame, detector: str) -> int:
-    """Position in the recording of the case that went worst: over-declared, undetected, slowest; healthy: largest margin."""
+    """Position in the recording of the case that went worst: a healthy site declared, not found, slowest; else the margin."""
     chosen = rows[np.asarray((rows["scenario"] == recording.scenario) & (rows["detector"] == detector), dtype=bool)]
     order = chosen[np.asarray(chosen["status"] == "ok", dtype=bool)].set_index("case").reindex(list(recording.cases))
     faulty = recording.onset_s is not None
     score = order["detection_time_s" if faulty else "margin_healthy"].to_numpy(dtype=np.float64, na_value=np.nan)
     flown = np.asarray(order["status"].notna(), dtype=bool)
     badness = np.where(flown, np.nan_to_num(score, nan=1e9 if faulty else 0.0), -np.inf)
-    over_declared = order["over_declared"].to_numpy(dtype=np.float64, na_value=np.nan) == 1.0
-    badness = np.where(over_declared, np.inf, badness)
+    wrong = np.asarray(order["wrong_site_time_s"].notna(), dtype=bool)
+    badness = np.where(wrong, np.inf, badness)
     return int(np.argmax(badness)) if len(badness) else 0
 
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import pyarrow as pa
 
-__all__ = ["EVENTS", "OUTCOMES", "SCHEMA_VERSION", "STATUSES", "rows_schema"]
+__all__ = ["CASE", "EVENTS", "OUTCOMES", "SCHEMA_VERSION", "STATUSES", "rows_schema"]
 
 SCHEMA_VERSION = "2"
 STATUSES = ("ok", "infeasible", "error", "nonfinite", "memory", "timeout", "crashed")
@@ -15,6 +15,9 @@ OUTCOMES = ("false_alarm", "wrong_site", "right", "late", "missed", "undecided")
 def _column(name: str, kind: pa.DataType, about: str, *, nullable: bool = True) -> pa.Field:
     return pa.field(name, kind, nullable=nullable, metadata={"about": about})
 
+
+CASE = _column("case", pa.string(), "name of the flight, scenario/point/level/run, made of these when rows are read")
+"""Column that no file holds."""
 
 _WHO = [
     _column("scenario", pa.string(), "name of the scenario", nullable=False),

@@ -11,7 +11,7 @@ import pyarrow.compute as pc
 from fddbench.errors import ResultsError
 from fddbench.results.folder import provenance_of
 from fddbench.results.manifest import shards
-from fddbench.results.schema import EVENTS
+from fddbench.results.schema import CASE, EVENTS
 from fddbench.results.shards import read_table
 
 __all__ = ["load", "load_events", "named"]
@@ -23,8 +23,8 @@ _ADDRESS = ("scenario", "point", "level", "run")
 def load(folder: str | Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
     """Rows of a campaign, one per case and detector, in the order of the campaign's scenarios, cases and detectors.
 
-    Arrow-backed, so that null stays null; the columns explain themselves in ``fddbench.results.schema``. ``case`` is the name
-    of the flight, ``jam_a/3/0/17``, for messages and for `fddbench.signals`.
+    Arrow-backed, so that null stays null. ``frame.attrs["columns"]`` says what each column means, as `fddbench.columns` does;
+    ``case`` names the flight, ``jam_a/3/0/17``, as messages do and as `fddbench.signals` takes it.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def load_events(folder: str | Path) -> pd.DataFrame:
 def named(table: pa.Table) -> pa.Table:
     """The table with the names of its flights as its first column, ``case``."""
     parts = [pc.cast(table[name], pa.string()) for name in _ADDRESS]
-    return table.add_column(0, "case", pc.binary_join_element_wise(*parts, "/"))
+    return table.add_column(0, CASE, pc.binary_join_element_wise(*parts, "/"))
 
 
 def _tables(folder: Path, which: str, columns: Collection[str] | None = None) -> Sequence[pa.Table]:
@@ -78,4 +78,5 @@ def _sorted(table: pa.Table, folder: Path, columns: Sequence[str] | None = None)
     in_order = named(table.take(pc.sort_indices(keys, sort_keys=[(name, "ascending") for name in by])))
     chosen = in_order if columns is None else in_order.select(list(columns))
     frame: pd.DataFrame = chosen.to_pandas(types_mapper=pd.ArrowDtype)
+    frame.attrs["columns"] = {field.name: (field.metadata or {}).get(b"about", b"").decode() for field in chosen.schema}
     return frame

@@ -7,9 +7,10 @@ from fddbench.campaign.reading.document import Address, Document
 from fddbench.campaign.rules.model import LONGEST_FLIGHT_S, CampaignFile
 from fddbench.campaign.timing import faulty_sites, flight_s
 from fddbench.campaign.variation import Faults, at_levels, level_radices
+from fddbench.clock import misfit, samples
 from fddbench.errors import FddbenchError, Mistake
 from fddbench.faults.specification import FaultSpecification
-from fddbench.faults.timing import latest_onset_s, misfit, onset_bounds_s, samples
+from fddbench.faults.timing import latest_onset_s, onset_bounds_s
 from fddbench.faults.varied import Varied, bounds
 from fddbench.interfaces import Benchmark, Plant
 
@@ -57,7 +58,8 @@ def _durations(document: Document, written: CampaignFile, number: int) -> Iterat
     places: list[tuple[Address, float | None]] = [(("scenarios", number, "duration_s"), own)]
     places += [(("duration_s",), written.duration_s)] if own is None else []
     for address, time_s in places:
-        for wrong in misfit(time_s, written.sample_s, least=1):
+        wrong = "" if time_s is None else misfit(time_s, written.sample_s, least=1)
+        if wrong:
             yield document.mistake(address, f"duration_s {wrong}")
 
 

@@ -80,7 +80,8 @@ class SlidingMode:
         )  # fmt: skip
         self.input_share = float(1.0 - exp(np.array(-T / g.input_lag_s)))
         self.output_share = float(1.0 - exp(np.array(-T / g.output_lag_s)))
-        self.confirm_one, self.confirm_two = samples(g.confirm_one_s, T), samples(g.confirm_two_s, T)
+        self.confirm_one = samples("confirm_one_s", g.confirm_one_s, T)
+        self.confirm_two = samples("confirm_two_s", g.confirm_two_s, T)
         self.states = Layout(
             SlidingModeState(
                 lagged=17, observer=self.observer.states.shape, reconstruction_deg_s=ROW,
