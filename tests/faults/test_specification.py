@@ -27,7 +27,7 @@ WHERE = {"sites": ("r1", "r2"), "onset_s": 2.0}
 SIZES = (
     (Bias, "bias", {"amplitude_percent": 5.0}, {"amplitude_deg_s": 2.0}, {"offset": 2.0}),
     (Jam, "jam", {"amplitude_percent": 1.25}, {"amplitude_deg_s": 0.5}, {"offset": 0.5}),
-    (Runaway, "runaway", {"rate_percent_s": 2.5}, {"rate_deg_s2": 1.0}, {"rate": 1.0, "low": -128.0, "high": 128.0}),
+    (Runaway, "runaway", {"rate_percent_s": 2.5}, {"rate_deg_s2": 1.0}, {"rate": 1.0}),
     (Nrz, "nrz", {"amplitude_percent": 320.0}, {"amplitude_deg_s": 128.0}, {"size": 128.0, "bit_s": 0.05}),
     (Noise, "noise", {"variance_percent": 1.25}, {"variance_deg2_s2": 0.5}, {"sigma": math.sqrt(0.5)}),
     (

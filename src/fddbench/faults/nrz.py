@@ -6,7 +6,7 @@ import numpy as np
 
 from fddbench.blocks.layout import Layout, Rows, record
 from fddbench.faults.profile import constants_of
-from fddbench.faults.specification import PositiveTime, WithAmplitude
+from fddbench.faults.specification import Time, WithAmplitude
 from fddbench.interfaces import Floats, Instant, Site
 
 __all__ = ["Nrz"]
@@ -65,7 +65,7 @@ class Nrz(WithAmplitude):
     lengths: ClassVar[tuple[str, ...]] = ("bit_s",)
 
     kind: Literal["nrz"]
-    bit_s: PositiveTime = 0.05
+    bit_s: Time = 0.05
 
     def numbers(self, site: Site, uniform: Floats) -> Bits:
         """Bit stream of the given size."""

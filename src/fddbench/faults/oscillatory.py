@@ -1,15 +1,15 @@
 """Oscillatory failure: a sine on the sensor."""
 
 from collections.abc import Iterator
-from typing import Any, ClassVar, Literal, Self
+from typing import ClassVar, Literal, Self
 
 import numpy as np
 from pydantic import model_validator
 
 from fddbench.blocks.functions import sin
 from fddbench.blocks.layout import Rows, record
-from fddbench.faults.specification import Finite, Positive, WithAmplitude, one_of
-from fddbench.faults.varied import Varied, bounds
+from fddbench.faults.specification import Finite, WithAmplitude, one_of
+from fddbench.faults.varied import bounds, in_words
 from fddbench.interfaces import Floats, Site
 
 __all__ = ["Oscillatory"]
@@ -47,8 +47,8 @@ class Oscillatory(WithAmplitude):
     profile = Sine
 
     kind: Literal["oscillatory"]
-    frequency_hz: Positive | None = None
-    frequency_rad_s: Positive | None = None
+    frequency_hz: Finite | None = None
+    frequency_rad_s: Finite | None = None
     phase_rad: Finite | None = None
     phase: Literal["uniform"] | None = None
 
@@ -68,20 +68,15 @@ class Oscillatory(WithAmplitude):
         )
 
     def unfit(self, sample_s: float) -> Iterator[tuple[str, str]]:
-        """What the clock cannot show: times between samples, and sines that would look like slower ones."""
+        """What the clock cannot show: times between samples, and sines that would look like slower ones or like none."""
         yield from super().unfit(sample_s)
         for key, limit, unit in (("frequency_hz", 0.5, "Hz"), ("frequency_rad_s", np.pi, "rad/s")):
             value, most = getattr(self, key), limit / sample_s
-            if value is not None and not bounds(value)[1] < most:
+            if value is not None and not (bounds(value)[0] > 0.0 and bounds(value)[1] < most):
                 yield (
                     key,
                     (
-                        f"{key} = {_shown(value)} is not below half the sampling rate: samples of {sample_s:g} s show sines "
-                        f"below {most:.6g} {unit}; lower it or shorten sample_s"
+                        f"{key} must lie above 0 and below {most:.6g} {unit}, half the sampling rate at {sample_s:g} s, got "
+                        f"{in_words(value)}: a faster sine looks like a slower one; lower it or shorten sample_s"
                     ),
                 )
-
-
-def _shown(value: Any) -> str:
-    """The number, or the largest that is flown."""
-    return f"{value.bounds[1]:g}" if isinstance(value, Varied) else f"{value:g}"

@@ -19,14 +19,13 @@ from fddbench.faults.varied import Number, Varied
 from fddbench.interfaces import FaultBlock, Floats, Site
 from fddbench.units import UNITS, unit
 
-__all__ = ["FaultSpecification", "Finite", "NonNegative", "Positive", "PositiveTime", "Time", "WithAmplitude", "one_of"]
+__all__ = ["FaultSpecification", "Finite", "NonNegative", "Positive", "Time", "WithAmplitude", "one_of"]
 
 # typed Any because in flight each is a number or an (n_cases,) array, and as written it may be `Varied`
 Finite = Annotated[Any, Number()]
 NonNegative = Annotated[Any, Number(ge=0.0)]
 Positive = Annotated[Any, Number(gt=0.0)]
 Time = Annotated[Any, Number(ge=0.0, time=True)]
-PositiveTime = Annotated[Any, Number(gt=0.0, time=True)]
 
 _PERCENT = {"rate": "rate_percent_s"}
 """Keys of sizes in percent that are not called ``<size>_percent``."""
