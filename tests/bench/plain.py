@@ -6,7 +6,7 @@ import numpy as np
 
 from tests.bench.step import A_O, B_O, CONSTANTS, DT, L_O, LAW, RATE, STATES, A, B
 
-_S, _C = STATES.index, CONSTANTS.index
+_S, _C = STATES.places, CONSTANTS.places
 
 
 class Run:

@@ -7,18 +7,60 @@ that ratios of one year and the next compare.
 import numpy as np
 
 from fddbench.blocks import functions
-from fddbench.blocks.layout import Layout, Rows
+from fddbench.blocks.layout import ROW, Layout, Row, Rows, record
 from fddbench.blocks.linear import affine, column, product, total
 from fddbench.blocks.program import Program, trace
 
 DT = 0.01
 NORMALS = 8
+
+
+@record
+class State:
+    """Plant, actuators, gust, observer, filtered error, threshold, logic."""
+
+    x: Rows
+    act: Rows
+    gust: Rows
+    obs: Rows
+    flt: Row
+    thr: Row
+    count: Rows
+    latched: Rows
+    alarm: Row
+    peak: Row
+    energy: Rows
+
+
+@record
+class Constants:
+    """Travel, sensor biases, fault, command, noise."""
+
+    limits: Rows
+    bias: Rows
+    amplitude: Row
+    omega: Row
+    onset: Row
+    last: Row
+    mask: Rows
+    cmd: Row
+    scale: Row
+    knots: Rows
+    values: Rows
+    sigma: Row
+
+
 STATES = Layout(
-    x=4, act=13, gust=2, obs=5, flt=0, thr=0, count=3, latched=3, alarm=0, peak=0, energy=3
+    State(
+        x=4, act=13, gust=2, obs=5, flt=ROW, thr=ROW, count=3, latched=3, alarm=ROW, peak=ROW, energy=3
+    )
 )  # fmt: skip
 CONSTANTS = Layout(
-    limits=13, bias=3, amplitude=0, omega=0, onset=0, last=0, mask=3, cmd=0, scale=0, knots=6, values=6, sigma=0
-)
+    Constants(
+        limits=13, bias=3, amplitude=ROW, omega=ROW, onset=ROW, last=ROW, mask=3, cmd=ROW, scale=ROW, knots=6, values=6,
+        sigma=ROW,
+    )
+)  # fmt: skip
 
 _rng = np.random.default_rng(1)
 A = np.stack([_rng.normal(size=(4, 4)) * s for s in (0.5, 0.1, 0.1)])
@@ -59,11 +101,11 @@ def step(state: Rows, constants: Rows, normals: Rows, sample: Rows) -> dict[str,
     alarm = np.where((s.alarm == 0.0) & (total(latched) > 0.0), sample, s.alarm)
     peak = np.where(sample < c.last, np.maximum(s.peak, flt / thr), s.peak)
     energy = s.energy * 0.9 + deviation * deviation
-    after = STATES.pack(
+    after = State(
         x=x, act=act, gust=gust, obs=obs, flt=flt, thr=thr, count=count, latched=latched, alarm=alarm, peak=peak,
         energy=energy,
     )  # fmt: skip
-    return {"state": after}
+    return {"state": STATES.pack(after)}
 
 
 def _rk4(M: Rows, drive: Rows, x: Rows) -> Rows:
@@ -105,7 +147,7 @@ def noisy_program() -> Program:
 def data(n_runs: int) -> tuple[np.ndarray, np.ndarray]:
     """State before sample 0 and constants of some runs."""
     rng = np.random.default_rng(3)
-    state = STATES.zeros(n_runs)
+    state = np.zeros((STATES.size, n_runs))
     state[:4] = rng.normal(size=(4, n_runs)) * 0.1
     constants = rng.normal(size=(CONSTANTS.size, n_runs)) * 0.1
     fixed = {
@@ -113,5 +155,5 @@ def data(n_runs: int) -> tuple[np.ndarray, np.ndarray]:
         "knots": [[0.0], [1.0], [2.0], [20.0], [21.0], [22.0]], "scale": 1.0, "omega": 6.0, "sigma": 0.1,
     }  # fmt: skip
     for name, value in fixed.items():
-        constants[CONSTANTS.index[name]] = value
+        constants[CONSTANTS.places[name]] = value
     return state, constants

@@ -35,8 +35,9 @@ def translate(
 def transplanted(module: Any) -> Callable[..., Mapping[str, Any]]:
     """`step.quiet` with another module in the place of NumPy."""
 
-    def pack(**values: Any) -> Any:
-        return module.concatenate([values[n] if rows else values[n][None] for n, rows in step.STATES.fields.items()])
+    def pack(values: Any) -> Any:
+        rows = ((getattr(values, name), count) for name, count in step.STATES.counts.items())
+        return module.concatenate([value if count else value[None] for value, count in rows])
 
     interpolate = FunctionType(functions.interpolate.__code__, {**vars(functions), "np": module})
     world = {

@@ -13,7 +13,8 @@ import numpy as np
 
 from fddbench.blocks import cache
 from fddbench.campaign.load import read_campaign
-from fddbench.runner.assembly import Assembly, Batch, assemble
+from fddbench.runner.assembling import assemble
+from fddbench.runner.assembly import Assembly, Batch
 from fddbench.runner.chunks import COMPILED_CHUNK, cut
 from fddbench.runner.flight import Flyer
 from tests.bench.report import Line

@@ -4,19 +4,33 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Annotated, ClassVar
 
+import numpy as np
 import pytest
 from pydantic import BaseModel, ConfigDict, Field
 
-from fddbench import gallery, registry
-from fddbench.blocks.layout import Layout
-from fddbench.errors import DesignError, FddbenchError
-from fddbench.interfaces import Bus, FaultUnits, Parameter
+from fddbench import gallery, kinds
+from fddbench.blocks.layout import Layout, Rows, record
+from fddbench.errors import DesignError
+from fddbench.interfaces import Bus, Choice, Parameter, SinglePlant, Site, Verdict
+from fddbench.voting.closest_two import ClosestTwo
+from fddbench.voting.median import Median
+
+RATE = {
+    "signal": "r_deg_s",
+    "unit_name": "deg/s",
+    "admissible": 40.0,
+    "stops": (-40.0, 40.0),
+    "limits_s": (120.0, 0.36),
+}
 
 
-class Toy:
+class Toy(SinglePlant):
     name = "toy"
-    about = "three yaw-rate sensors on nothing"
-    sites = ("r1", "r2", "r3")
+    about = "three yaw-rate sensors on nothing, and a surface that nobody requires to be found"
+    sites = (
+        *(Site(name=f"r{row + 1}", row=row, **RATE) for row in range(3)),
+        Site(name="rudder", kind="actuator", signal="rudder_deg", unit_name="deg", admissible=30.0),
+    )
     parameters = (
         Parameter(name="mass_kg", about="mass", default=200e3, low=120e3, high=260e3),
         Parameter(name="x_cg_percent", about="centre of gravity", default=30.0, low=17.0, high=41.0),
@@ -24,18 +38,18 @@ class Toy:
         Parameter(name="speed_kt", about="calibrated airspeed", default=260.0, low=160.0, high=300.0),
     )
     refused_parameters: ClassVar = {"mach": "it follows from speed_kt and altitude_ft; disperse those"}
-    plants = ("lateral_lpv", "frozen")
-    voters = ("median", "closest_two")
-    sensors = ("white",)
-    winds = ("none", "gust")
+    choices: ClassVar = {
+        "plant": Choice(about="what flies", options={"lateral_lpv": "moving", "frozen": "frozen"}),
+        "voter": Choice(
+            about="voter", options={"median": Median, "closest_two": ClosestTwo}, family="voter", needs=("vote",)
+        ),
+        "sensors": Choice(about="noise", options={"white": 0.01}, family="sensor", needs=("r_deg_s",)),
+        "wind": Choice(about="gust", options={"none": 0.0, "gust": 3.0}),
+    }
     manoeuvres: ClassVar = {"cruise": 60.0, "roll_doublet": 40.0}
-    fault_units = FaultUnits(unit="deg/s", admissible=40.0, sensor_range=40.0)
 
-    def detection_time_limit_s(self, n_faulty):
-        limits = {1: 120.0, 2: 0.36}
-        if n_faulty not in limits:
-            raise FddbenchError(f"no limit for {n_faulty} faulty sensors")
-        return limits[n_faulty]
+    def loop(self, options):
+        raise NotImplementedError
 
 
 class Gains(BaseModel):
@@ -45,8 +59,15 @@ class Gains(BaseModel):
     weights: tuple[float, ...] = ()
 
 
+@record
+class Held:
+    held: Rows
+
+
 class Watcher:
     Gains = Gains
+    states, recorded = Layout(Held(held=3)), ()
+    watches = ("r1", "r2", "r3")
 
     def __init__(self, gains: Gains, bus: Bus) -> None:
         self.gains, self.bus = gains, bus
@@ -57,20 +78,40 @@ class Watcher:
             raise DesignError(f"confirmation_s = {gains.confirmation_s} is shorter than a sample of {bus.sample_s} s")
         return cls(gains, bus)
 
-    states = Layout(held=0)
-    recorded = ()
+    def start(self):
+        return Held(held=0.0)
 
-    def start(self, n_cases):
-        return self.states.zeros(n_cases)
+    def step(self, x, measured):
+        rates = np.abs(measured.r_deg_s)
+        held = np.where(rates > self.gains.threshold_deg_s, 1.0, x.held)
+        return Held(held=held), Verdict(held, rates[0] / self.gains.threshold_deg_s)
 
-    def step(self, state, measured):
-        raise NotImplementedError
+
+def pretend(monkeypatch, family, **members):
+    """Register members of a family beside the real ones, as a package would."""
+    real = kinds.registered
+    points = {
+        name: member
+        if hasattr(member, "load")
+        else SimpleNamespace(load=lambda found=member: found, value=f"tests:{name}")
+        for name, member in members.items()
+    }
+    monkeypatch.setattr(kinds, "registered", lambda asked: real(asked) | (points if asked == family else {}))
+
+
+def broken(error):
+    """Entry point of a package that raises on import."""
+
+    def load():
+        raise error
+
+    return SimpleNamespace(load=load, value="broken.package:Thing")
 
 
 @pytest.fixture(autouse=True)
 def toys(monkeypatch, tmp_path_factory):
-    """Registers the benchmark and the detectors beside the real faults."""
-    real = registry.kinds
+    """Registers the benchmark and the detector instead of the real ones, beside the real faults."""
+    real = kinds.registered
     toys = {
         "benchmark": {"toy": SimpleNamespace(load=lambda: Toy, value="tests:Toy")},
         "detector": {"watcher": SimpleNamespace(load=lambda: Watcher, value="tests:Watcher")},
@@ -79,7 +120,7 @@ def toys(monkeypatch, tmp_path_factory):
     for folder in ("campaigns", "detectors"):
         (shipped / folder).mkdir(parents=True, exist_ok=True)
     monkeypatch.setattr(gallery, "folder", lambda name: shipped / name)
-    monkeypatch.setattr(registry, "kinds", lambda family: toys.get(family) or real(family))
+    monkeypatch.setattr(kinds, "registered", lambda family: toys.get(family) or real(family))
 
 
 @pytest.fixture

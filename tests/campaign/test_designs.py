@@ -1,13 +1,17 @@
+from dataclasses import replace
+
 import pytest
+from tests.campaign.conftest import Toy
 
 from fddbench.campaign.load import read_campaign
-from fddbench.campaign.meaning import build_detectors
+from fddbench.designs.building import build_detectors
 from fddbench.errors import CampaignError
 from fddbench.interfaces import Bus
 
-BUS = Bus(sample_s=0.01, sites=("r1", "r2", "r3"), signals={})
+BUS = Bus(sample_s=0.01, sites=Toy.sites, signals={"r_deg_s": 3, "rudder_deg": 0})
 PLUGIN = """
-from fddbench.blocks.layout import Layout
+from fddbench.blocks.layout import Layout, Nothing
+from fddbench.interfaces import Verdict
 from pydantic import BaseModel
 class Mine:
     class Gains(BaseModel):
@@ -18,13 +22,13 @@ class Mine:
     def from_design(cls, gains, bus):
         return cls(gains.level)
 
-    states, recorded = Layout(held=0), ()
+    states, recorded, watches = Layout(Nothing()), (), ("r1",)
 
-    def start(self, n_cases):
-        return self.states.zeros(n_cases)
+    def start(self):
+        return Nothing()
 
-    def step(self, state, measured):
-        raise NotImplementedError
+    def step(self, x, measured):
+        return x, Verdict(measured.r_deg_s[:1] > self.level, measured.r_deg_s[0] / self.level)
 """
 USES_PLUGIN = "kind: plugin.py:Mine\nsource: me\ntuned_on: null\ngains: {level: 3}\n"
 
@@ -32,23 +36,23 @@ USES_PLUGIN = "kind: plugin.py:Mine\nsource: me\ntuned_on: null\ngains: {level: 
 def test_builds_detectors_in_order(write):
     text = "kind: watcher\nsource: made up\ntuned_on: null\ngains: {threshold_deg_s: 2}\n"
     path = write(designs={"other": text}, **{"[plain]": "[other, plain]"})
-    found = build_detectors(read_campaign(path), BUS)
+    found = build_detectors(read_campaign(path).designs, BUS)
     assert list(found) == ["other", "plain"]
     assert found["plain"].gains.weights == (1.0, 2.5)
 
 
 def test_a_design_that_makes_no_detector_is_located(write):
     campaign = read_campaign(write())
-    bus = Bus(sample_s=0.5, sites=BUS.sites, signals={})
+    bus = replace(BUS, sample_s=0.5)
     with pytest.raises(CampaignError, match=r"campaign.yaml:16:13: design 'plain' \(.*shorter than a sample of 0.5 s"):
-        build_detectors(campaign, bus)
+        build_detectors(campaign.designs, bus)
 
 
 def test_plugins_lie_beside_their_design(write):
     path = write(designs={"mine": USES_PLUGIN, "plugin.py": PLUGIN}, **{"[plain]": "[mine]"})
     campaign = read_campaign(path)
-    assert build_detectors(campaign, BUS)["mine"].level == 3.0
-    assert campaign.files()["detectors/plugin.py"] == PLUGIN
+    assert build_detectors(campaign.designs, BUS)["mine"].level == 3.0
+    assert campaign.files()["detectors/plugin.py"] == PLUGIN.encode()
     assert read_campaign(path).designs[0].gains == campaign.designs[0].gains
 
 
@@ -57,8 +61,8 @@ def test_plugins_lie_beside_their_design(write):
     [
         ("x = 1 / 0\n", r"mine.yaml:1:7: .*plugin.py:1 does not run: ZeroDivisionError"),
         ("def (:\n", r"mine.yaml:1:7: .*plugin.py does not run: SyntaxError"),
-        ("class Other: pass\n", r"has no class 'Mine'. It has: Other"),
-        ("class Mine: pass\n", r"'plugin.py:Mine' is no detector: its class has no Gains and no from_design"),
+        ("class Other: pass\n", r"plugin.py has no 'Mine'. It has: Other"),
+        ("class Mine: pass\n", r"'plugin.py:Mine' \(.*plugin.py\) is no detector: it has no Gains and no from_design"),
     ],
 )
 def test_broken_plugins_are_told(write, plugin, message):

@@ -10,16 +10,14 @@ from fddbench import gallery
 from fddbench.campaign.load import read_campaign
 from fddbench.campaign.schema import campaign_schema
 from fddbench.errors import CampaignError
+from fddbench.voting.median import Median
 
 
 def test_fills_in_the_defaults(write):
     campaign = read_campaign(write())
-    assert (campaign.plant, campaign.voter, campaign.sensors, campaign.wind) == (
-        "lateral_lpv",
-        "median",
-        "white",
-        "none",
-    )
+    assert campaign.choices == {"plant": "lateral_lpv", "voter": "median", "sensors": "white", "wind": "none"}
+    assert campaign.chosen == {"plant": "moving", "voter": Median, "sensors": 0.01, "wind": 0.0}
+    assert (campaign.benchmark, campaign.bench.name, campaign.plant) == ("toy", "toy", campaign.bench)
     assert (campaign.purpose, campaign.sample_s, campaign.substeps, campaign.duration_s) == (
         "evaluation",
         0.01,
@@ -42,7 +40,7 @@ def test_overrides_take_effect(write):
     campaign = read_campaign(write(), overrides)
     assert campaign.dispersions.monte_carlo.runs == 9
     assert campaign.scenarios[1].faults[0].onset_s == 6.0
-    assert campaign.scenarios[0].duration_s == 30.0
+    assert campaign.scenarios[0].entry.duration_s == 30.0
     assert campaign.dispersions.grid == {"speed_kt": (200.0, 250.0)}
 
 
@@ -53,9 +51,9 @@ def test_overrides_do_not_mend_what_they_replace_twice(write):
 def test_frozen_text_means_the_same(write, tmp_path):
     campaign = read_campaign(write(), ["dispersions.monte_carlo.runs=9", 'about="1e-3"'])
     folder = tmp_path / "results"
-    for name, text in campaign.files().items():
+    for name, content in campaign.files().items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).write_text(text)
+        (folder / name).write_bytes(content)
     again = read_campaign(folder / "campaign.yaml")
     assert (again.sha256, again.text, again.scenarios) == (campaign.sha256, campaign.text, campaign.scenarios)
 

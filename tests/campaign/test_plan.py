@@ -7,7 +7,8 @@ from fddbench.campaign.check import describe
 from fddbench.campaign.load import read_campaign
 from fddbench.campaign.plan import plan
 from fddbench.campaign.streams import scenario_stream
-from fddbench.campaign.timing import on_clock, samples
+from fddbench.campaign.timing import on_clock
+from fddbench.faults.timing import samples
 
 TWO = "      - {kind: jam, sites: [r1], onset_s: 4, amplitude_percent: 10}\n"
 LATE = TWO + "      - {kind: noise, sites: [r2], onset_s: 9, end_s: 12, variance_percent: 1}\n"

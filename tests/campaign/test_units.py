@@ -1,14 +1,17 @@
 """Sizes of faults carry the unit of the benchmark's sites; a benchmark may have nothing to choose."""
 
-import pytest
+from typing import ClassVar
 
-from fddbench import registry
+import numpy as np
+import pytest
+from tests.campaign.conftest import Toy, pretend
+
 from fddbench.campaign.check import describe
 from fddbench.campaign.load import read_campaign
 from fddbench.campaign.plan import plan
 from fddbench.campaign.schema import campaign_schema
 from fddbench.errors import CampaignError
-from fddbench.interfaces import FaultUnits
+from fddbench.interfaces import Site
 
 TEXT = """\
 name: plain
@@ -25,16 +28,20 @@ scenarios:
 """
 
 
+PLAIN = {"signal": "y", "unit_name": "", "admissible": 2.0, "stops": (-9.0, 9.0), "limits_s": (5.0,)}
+
+
+class Numbers(Toy):
+    """The toy benchmark with sites without a unit and nothing to choose."""
+
+    name = "numbers"
+    choices: ClassVar = {}
+    sites = tuple(Site(name=f"r{row + 1}", row=row, **PLAIN) for row in range(3))
+
+
 @pytest.fixture(autouse=True)
 def numbers(monkeypatch, toys):
-    """The toy benchmark with sites without a unit and without voters, sensors and winds."""
-    real, Toy = registry.kinds, registry.load("benchmark", "toy")
-    own = {"name": "numbers", "voters": (), "sensors": (), "winds": (), "detection_time_limit_s": lambda self, n: 5.0}
-    Numbers = type("Numbers", (Toy,), {**own, "fault_units": FaultUnits(unit="", admissible=2.0, sensor_range=9.0)})
-    point = type("Point", (), {"load": staticmethod(lambda: Numbers), "value": "tests:Numbers"})
-    monkeypatch.setattr(
-        registry, "kinds", lambda family: real(family) | ({"numbers": point} if family == "benchmark" else {})
-    )
+    pretend(monkeypatch, "benchmark", numbers=Numbers)
 
 
 def refusal(path):
@@ -43,13 +50,16 @@ def refusal(path):
     return str(caught.value)
 
 
-def test_plain_sizes_make_the_waves(write):
+def test_plain_sizes_make_the_numbers(write):
     campaign = read_campaign(write(TEXT))
-    units = registry.load("benchmark", "numbers").fault_units
-    jam, runaway, noise = (fault.wave(units) for fault in campaign.scenarios[0].faults)
-    assert (jam.offset, runaway.rate, runaway.clip, noise.sigma) == (1.5, 0.2, 9.0, 2.0)
+    half = np.full(1, 0.5)
+    jam, runaway, noise = (
+        fault.numbers(site, half) for fault, site in zip(campaign.scenarios[0].faults, Numbers.sites, strict=True)
+    )
+    assert (jam.offset, runaway.rate, noise.sigma) == (1.5, 0.2, 2.0)
+    assert (runaway.low, runaway.high) == (-9.0, 9.0)
     again = read_campaign(write(TEXT.replace("amplitude: 1.5", "amplitude_percent: 75")))
-    assert again.scenarios[0].faults[0].wave(units).offset == 1.5
+    assert again.scenarios[0].faults[0].numbers(Numbers.sites[0], half).offset == 1.5
 
 
 def test_a_key_of_another_unit_is_refused_at_its_place(write):
@@ -69,16 +79,17 @@ def test_messages_name_the_keys_of_the_benchmark(write):
     assert "needs freeze: true | hold_value | hold_value_percent" in refusal(write(text))
 
 
-@pytest.mark.parametrize("key", ["voter", "sensors", "wind"])
+@pytest.mark.parametrize("key", ["plant", "voter", "sensors", "wind"])
 def test_choosing_where_there_is_nothing_to_choose_is_refused(write, key):
     message = refusal(write(TEXT + f"{key}: median\n"))
-    assert f"benchmark 'numbers' has no {key} to choose; remove this key" in message
-    assert getattr(read_campaign(write(TEXT)), key) == ""
+    assert f"campaign.yaml:12:1: unknown key {key!r}. " in message
+    assert "Allowed: name, about, benchmark" in message
+    assert read_campaign(write(TEXT)).choices == {}
 
 
 def test_what_is_not_there_is_not_described(write):
     text = describe(plan(read_campaign(write(TEXT))))
-    assert "Benchmark numbers, plant lateral_lpv\n" in text
+    assert "Benchmark numbers\n" in text
     assert "runaway rate_per_s=0.2 on r2 at 10 s" in text
 
 

@@ -97,7 +97,7 @@ def test_a_failing_detector_of_ones_own_exits_with_one(tiny, capsys):
     (tiny / "detectors" / "mine.py").write_text(
         (gallery.folder("detectors") / "cusum_example.py")
         .read_text()
-        .replace("distance = ", "1 / 0\n        distance = ")
+        .replace("distance = ", "0 / int((measured.mass_kg < 1e3).any())\n        distance = ")
     )
     design = yaml.safe_load((gallery.folder("detectors") / "cusum_example.yaml").read_text())
     (tiny / "detectors" / "mine.yaml").write_text(yaml.safe_dump({**design, "kind": "mine.py:Cusum"}))

@@ -20,66 +20,108 @@ def plugin(tmp_path, monkeypatch):
     (tmp_path / "tiny.yaml").write_text(TINY)
     (tmp_path / "detectors").mkdir()
 
-    def run(*changes, others="", backend="auto"):
-        text = SOUND
+    def run(*changes, others="", backend="auto", command="run"):
+        text = SOUND.replace("import Layout, ", "import Layout, Nothing, ")
         for old, new in changes:
             assert old in text
             text = text.replace(old, new)
         (tmp_path / "detectors" / "mine.py").write_text(text)
         (tmp_path / "detectors" / "mine.yaml").write_text(DESIGN.replace("cusum_example.py", "mine.py"))
-        detectors = f"detectors=[mine{others}]"
-        return main(
-            ["run", "tiny.yaml", "--quiet", "--jobs", "1", "--out", "out", "--backend", backend, "--set", detectors]
-        )
+        options = ["--quiet", "--jobs", "1", "--out", "out", "--backend", backend] if command == "run" else []
+        return main([command, "tiny.yaml", *options, "--set", f"detectors=[mine{others}]"])
 
     return run
 
 
+FROM_DESIGN = 'return cls(gains, bus.redundant("r_deg_s"))'
+START = "return CusumState(sum_deg_s=0.0, declared=0.0)"
+FIRST = "        distance = "
+LAST = "return CusumState(sum_deg_s=sums, declared=declared), verdict"
+
+
+def line_of(path, words):
+    """Number of the first line of a file that holds these words."""
+    return 1 + next(n for n, line in enumerate(path.read_text().splitlines()) if words in line)
+
+
 @pytest.mark.parametrize(
-    ("change", "message"),
+    ("change", "message", "place"),
     [
-        (("import numpy as np", "import sys; sys.exit()"), "does not run: SystemExit"),
-        (("return cls(gains, len(bus.sites))", "raise ValueError('no')"), "from_design raised ValueError: no"),
-        (("return cls(gains, len(bus.sites))", "raise SystemExit(0)"), "from_design raised SystemExit"),
-        (("return cls(gains, len(bus.sites))", "return None"), "needs an attribute `states`"),
-        (("    recorded = ", "    shown = "), "needs an attribute `recorded`"),
+        (("import numpy as np", "import sys; sys.exit()"), "does not run: SystemExit", ""),
+        ((FROM_DESIGN, "raise ValueError('no')"), "from_design raised ValueError: no", "raise ValueError"),
+        ((FROM_DESIGN, "raise SystemExit(0)"), "from_design raised SystemExit", "raise SystemExit"),
+        ((FROM_DESIGN, "return None"), "needs an attribute `states`", ""),
+        (("    recorded = ", "    shown = "), "needs an attribute `recorded`", ""),
         (
-            ("self.states.zeros(n_cases)", "self.states.zeros(n_cases + 1)"),
-            r"start(2) needs to give an array of shape (6, 2)",
+            (START, "return CusumState(sum_deg_s=np.zeros(4), declared=0.0)"),
+            "its start is no record of its states",
+            START,
         ),
-        (("self.states.zeros(n_cases)", "1 / 0"), "start(2) raised ZeroDivisionError"),
-        (("    Gains = CusumGains", "    Gains = dict"), "needs a class Gains"),
-        (("x = self.states", "self.calls = getattr(self, 'calls', 0) + 1; x = self.states"), "keep it in the state"),
+        ((START, "return 0.0"), "need a record of the fields ['sum_deg_s', 'declared'], got float", "def start"),
+        (
+            (START, "return Nothing()"),
+            "need exactly the fields ['sum_deg_s', 'declared'], missing=['declared', 'sum_deg_s'], unknown=[]",
+            "def start",
+        ),
+        ((START, "return 1 / 0"), "its start is no record of its states: ZeroDivisionError", "return 1 / 0"),
+        (("    Gains = CusumGains", "    Gains = dict"), "needs a class Gains", ""),
+        ((FIRST, "        self.calls = getattr(self, 'calls', 0) + 1\n" + FIRST), "keep it in the state", ""),
+        (("self.watches = gains, sites", "self.watches = gains, ('r1', 'r2', 'r9')"), "it watches ['r9']", ""),
+        (("self.watches = gains, sites", "self.watches = gains, 3"), "it is no detector: TypeError", ""),
     ],
 )
-def test_what_is_no_detector_is_a_mistake_and_nothing_is_written(plugin, tmp_path, capsys, change, message):
+def test_what_is_no_detector_is_a_mistake_and_nothing_is_written(plugin, tmp_path, capsys, change, message, place):
     assert plugin(change) == 2
     error = capsys.readouterr().err
     assert message in error
+    if place not in ("", START):
+        assert f"mine.py:{line_of(tmp_path / 'detectors' / 'mine.py', place)})" in error
+    assert not (tmp_path / "out").exists()
+
+
+MISBEHAVIOURS = [
+    ("raise SystemExit(0)", "SystemExit"),
+    ("measured.r_deg_s[...] = 99.0", "read-only"),
+    ("measured.mass_kg *= 2.0", "read-only"),
+    ("return measured.r_deg_s, Verdict(x.declared, measured.r_deg_s[0])", "recorded announces"),
+    ("return x", "a step gives (state, Verdict), got CusumState"),
+    ("return x, x", "a step gives (state, Verdict), got CusumState as verdict"),
+    ("return x, Verdict(x.declared[:2], measured.mass_kg)", "a verdict needs declared of shape"),
+    ("return x, Verdict(x.declared, x.declared)", "a verdict needs residual of shape (2,), got (3, 2)"),
+    ("raise ValueError('five\\nlines' * 500)", "..."),
+]
+SHOWN = "signals={'sum_deg_s': measured.mass_kg, 'limit_deg_s': measured.mass_kg}"
+WRONG_STATES = [
+    (f"return measured.r_deg_s, Verdict(x.declared, measured.mass_kg, {SHOWN})", "need a record of the fields"),
+    (f"return CusumState(sum_deg_s=x.declared[:2], declared=x.declared), Verdict(x.declared, measured.mass_kg, {SHOWN})",
+     "sum_deg_s needs the shape (3, n_cases), got (2, "),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("command", ["check", "run"])
+@pytest.mark.parametrize(("wrong", "message"), MISBEHAVIOURS + WRONG_STATES)
+def test_a_step_that_is_always_wrong_is_told_before_anything_is_flown(
+    plugin, tmp_path, capsys, wrong, message, command
+):
+    assert plugin((FIRST, f"        {wrong}\n{FIRST}"), command=command) == 2
+    error = capsys.readouterr().err
+    assert message in error
+    assert error.startswith("fddbench: --set detectors=[mine]: design 'mine' (")
+    path = tmp_path / "detectors" / "mine.py"
+    assert f"mine.py:{line_of(path, wrong if 'raise' in wrong or '=' in wrong.split('(')[0] else 'def step')})" in error
     assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.parametrize("backend", ["auto", "numpy"])
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        (("x = self", "raise SystemExit(0); x = self"), "SystemExit"),
-        (("x = self", "measured.r_deg_s[...] = 99.0; x = self"), "read-only"),
-        (("x = self", "measured.mass_kg *= 2.0; x = self"), "read-only"),
-        (
-            ("return self.states.pack(sum_deg_s=sums, declared=declared), verdict", "return sums, verdict"),
-            "a step gives a state",
-        ),
-        (('signals={"sum_deg_s": worst, "limit_deg_s": limit}', "signals={}"), "recorded announces"),
-        (("verdict = Verdict(declared", "verdict = Verdict(declared[:2]"), "a verdict needs declared of shape"),
-        (("x = self", "raise ValueError('five\\nlines' * 500); x = self"), "..."),
-    ],
-)
-def test_a_misbehaving_step_is_a_row_and_spoils_no_other(plugin, tmp_path, backend, change, message):
+@pytest.mark.parametrize(("wrong", "message"), MISBEHAVIOURS + WRONG_STATES)
+def test_a_step_that_misbehaves_in_flight_is_a_row_and_spoils_no_other(plugin, tmp_path, backend, wrong, message):
+    """It is sound on the plain numbers of the check: no aircraft weighs less than a ton."""
+    change = (FIRST, f"        if (measured.mass_kg > 1e3).any():\n            {wrong}\n{FIRST}")
     assert plugin(change, others=", sliding_mode_published, voting_monitor", backend=backend) == 1
     rows = load(tmp_path / "out")
     mine = rows[rows["detector"] == "mine"]
     assert set(mine["status"]) == {"error"}
+    message = message.replace("(2,), got (3, 2)", "(1,), got (3, 1)")  # told of a flight alone
     assert all(message in reason and len(reason) <= 200 and "\n" not in reason for reason in mine["reason"])
     shutil.rmtree(tmp_path / "out")
     assert plugin(others=", sliding_mode_published, voting_monitor") == 0

@@ -9,7 +9,7 @@ import yaml
 from fddbench.benchmarks.jet_engine import plant
 from fddbench.design.norms import hinf_norm
 from fddbench.design.robust_hinf import synthesize
-from fddbench.design.systems import StateSpace, UncertainPlant
+from fddbench.systems import StateSpace, UncertainPlant
 
 DATA = yaml.safe_load((Path(plant.__file__).parent / "data" / "jet_engine.yaml").read_text())
 

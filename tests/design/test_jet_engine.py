@@ -9,7 +9,6 @@ from fddbench.design.linearised import Freedom
 from fddbench.design.norms import hinf_norm, hminus_index
 from fddbench.design.reference_search import normalised, optimize_fixed_poles, optimize_reference
 from fddbench.design.robust_hinf import synthesize
-from fddbench.design.systems import StateSpace
 from fddbench.design.uncertainty import (
     FullBlock,
     NormBounded,
@@ -20,6 +19,7 @@ from fddbench.design.uncertainty import (
     sample_delta,
 )
 from fddbench.design.worst_case import worst_delta, worst_vertex_mix
+from fddbench.systems import StateSpace
 
 IDENTITY = StateSpace.gain(np.eye(3))
 OPTIMUM = 0.33400

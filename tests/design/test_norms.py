@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fddbench.design.norms import hinf_norm, hminus_index
-from fddbench.design.systems import StateSpace
 from fddbench.errors import DesignError
+from fddbench.systems import StateSpace
 
 GRID = np.concatenate([[0.0], np.logspace(-3, 3, 600), [np.inf]])
 

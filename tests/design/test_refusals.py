@@ -11,9 +11,9 @@ from fddbench.design import solver as solvers
 from fddbench.design.linearised import Freedom
 from fddbench.design.reference_search import normalised, optimize_fixed_poles
 from fddbench.design.robust_hinf import synthesize
-from fddbench.design.systems import StateSpace, UncertainPlant
 from fddbench.design.uncertainty import Polytope, RepeatedReal, Structured
 from fddbench.errors import DesignError
+from fddbench.systems import StateSpace, UncertainPlant
 
 IDENTITY = StateSpace.gain(np.eye(3))
 

@@ -11,9 +11,10 @@ from fddbench.design.certificate import certify
 from fddbench.design.norms import hinf_norm
 from fddbench.design.reference_search import optimize_reference
 from fddbench.design.robust_hinf import synthesize
-from fddbench.design.systems import StateSpace, Weights
 from fddbench.design.uncertainty import RepeatedReal, Structured, sample_delta
+from fddbench.design.weights import Weights
 from fddbench.errors import DesignError
+from fddbench.systems import StateSpace
 
 
 def first_order(n_f: int) -> StateSpace:

@@ -8,13 +8,15 @@ import yaml
 
 from fddbench import gallery
 from fddbench.benchmarks.jet_engine import JetEngine
+from fddbench.blocks.layout import Nothing
 from fddbench.detection.hinf_filter import HinfFilter
 from fddbench.errors import DesignError
-from fddbench.interfaces import Bus, Flights, Options, Tunable
+from fddbench.faults.jam import Jam
+from fddbench.interfaces import Bus, FlightFaults, Flights, Options, Site, Tunable
 
 SHIPPED = ("hinf_identity", "hinf_start", "hinf_final", "hinf_optimum", "jet_exact_inverse")
 BENCHMARK = JetEngine()
-BUS = Bus(sample_s=0.05, sites=("f1", "f2", "f3"), signals={"y": 3, "u": 3})
+BUS = Bus(sample_s=0.05, sites=BENCHMARK.sites, signals={"y": 3, "u": 3})
 
 
 def gains(name, **changes):
@@ -22,30 +24,38 @@ def gains(name, **changes):
     return HinfFilter.Gains(**{**yaml.safe_load(text)["gains"], **changes})
 
 
+def begun(detector, n_cases=1):
+    return detector.states.spread(detector.start(Nothing()), n_cases)
+
+
+def stepped(detector, state, measured):
+    return detector.step(state, Nothing(), Nothing(), measured)
+
+
 def means(detector, *, faults=(0.0, 0.0, 0.0), onset=40, n=300, manoeuvre="idle", delta=0.0):
     """Moving means, (n_time, 3), and declarations on the nominal engine without disturbances."""
-    options = {"voter": "", "sensors": "", "wind": "", "substeps": 1, "fault_slots": 1}
-    loop = BENCHMARK.loop(Options(plant="boundary", sample_s=BUS.sample_s, **options))
-    parameters = {"delta_scale_ratio": delta, "input_scale_ratio": 1.0, "disturbance_scale_ratio": 0.0}
-    from fddbench.faults.jam import Jam
-
     kind = Jam.in_unit("")
     parts = [
         kind(kind="jam", sites=(f"f{i + 1}",), onset_s=onset * 0.05, amplitude=a) for i, a in enumerate(faults) if a
     ]
-    rows = loop.fault_rows(parts[:1], np.full((1, 3, 1), 0.5))
-    begun = loop.start(
+    chosen = {"plant": BENCHMARK.choices["plant"].options["boundary"]}
+    loop = BENCHMARK.loop(Options(chosen=chosen, sample_s=BUS.sample_s, faults=[parts]))
+    parameters = {"delta_scale_ratio": delta, "input_scale_ratio": 1.0, "disturbance_scale_ratio": 0.0}
+    uniform = np.full((len(parts), 3, 1), 0.5)
+    prepared = loop.prepare(
         Flights(
             parameters={name: np.array([value]) for name, value in parameters.items()},
             manoeuvres=[manoeuvre],
-            faults=rows,
-            normals=np.random.default_rng(2).standard_normal((24, 1)),
+            faults=FlightFaults(lists=[parts], which=np.zeros(1, dtype=int), uniform=uniform),
+            normals=loop.before.unpack(np.random.default_rng(2).standard_normal((24, 1))),
         )
     )
-    state, inner, found, declared = begun.state, detector.start(1), [], []
+    state = loop.states.spread(loop.start(prepared.constants), 1)
+    inner, found, declared = begun(detector), [], []
     for k in range(n):
-        state, measured, _, _ = loop.step(state, begun.constants, np.zeros((8, 1)), float(k))
-        inner, verdict = detector.step(inner, measured)
+        numbers = loop.draws.unpack(np.zeros((loop.draws.size, 1)))
+        state, seen = loop.step(state, prepared.constants, numbers, float(k))
+        inner, verdict = stepped(detector, inner, seen.measured)
         found.append([verdict.signals[f"mean_{i + 1}"][0] for i in range(3)])
         declared.append(verdict.declared[:, 0])
     return np.array(found), np.array(declared)
@@ -81,10 +91,10 @@ def test_inputs_alone_raise_nothing_on_the_nominal_engine(name):
 
 def constant(detector, levels, n):
     """Declarations for residuals that stand at a level: D_y of a static filter passes y."""
-    state, found = detector.start(1), []
+    state, found = begun(detector), []
     for k in range(n):
         y = np.array([[levels(k)], [0.0], [0.0]])
-        state, verdict = detector.step(state, SimpleNamespace(y=y, u=np.zeros((3, 1))))
+        state, verdict = stepped(detector, state, SimpleNamespace(y=y, u=np.zeros((3, 1))))
         found.append(verdict.declared[0, 0])
     return np.array(found)
 
@@ -115,16 +125,16 @@ def test_bits_do_not_depend_on_the_company():
     detector, random = HinfFilter.from_design(gains("hinf_optimum"), BUS), np.random.default_rng(0)
     signals = random.standard_normal((60, 6, 40))
 
-    def ratios(which):
-        state, found = detector.start(len(which)), []
+    def residuals(which):
+        state, found = begun(detector, len(which)), []
         for sample in signals[:, :, which]:
-            state, verdict = detector.step(state, SimpleNamespace(y=sample[:3], u=sample[3:]))
-            found.append(verdict.ratio)
+            state, verdict = stepped(detector, state, SimpleNamespace(y=sample[:3], u=sample[3:]))
+            found.append(verdict.residual)
         return np.array(found)
 
-    whole = ratios(range(40))
-    np.testing.assert_array_equal(ratios([7]), whole[:, [7]])
-    np.testing.assert_array_equal(ratios([3, 39, 12]), whole[:, [3, 39, 12]])
+    whole = residuals(range(40))
+    np.testing.assert_array_equal(residuals([7]), whole[:, [7]])
+    np.testing.assert_array_equal(residuals([3, 39, 12]), whole[:, [3, 39, 12]])
 
 
 @pytest.mark.parametrize(
@@ -143,4 +153,20 @@ def test_matrices_that_make_no_filter_are_refused(changes, message):
 
 def test_a_benchmark_without_outputs_and_inputs_is_refused():
     with pytest.raises(DesignError, match="needs the signals"):
-        HinfFilter.from_design(static(), Bus(sample_s=0.01, sites=("r1",), signals={"r_deg_s": 3}))
+        HinfFilter.from_design(static(), Bus(sample_s=0.01, sites=BENCHMARK.sites[:1], signals={"r_deg_s": 3}))
+
+
+def test_the_largest_mean_over_its_threshold_is_the_residual():
+    detector = HinfFilter.from_design(static(thresholds=(0.5, 4.0, 1.0)), BUS)
+    y = np.array([[1.0], [-2.0], [3.0]])
+    _, verdict = stepped(detector, begun(detector), SimpleNamespace(y=y, u=np.zeros((3, 1))))
+    assert verdict.residual[0] == pytest.approx(3.0)
+    assert set(verdict.signals) == set(detector.recorded)
+    assert [verdict.signals[f"threshold_{i}"][0] for i in (1, 2, 3)] == [0.5, 4.0, 1.0]
+
+
+def test_it_watches_the_sites_of_the_kind_of_the_first():
+    """A plant whose sensors may fail too has as many residuals as component faults."""
+    sensor = Site(name="y2", signal="y", row=1, unit_name="", admissible=1.0)
+    bus = Bus(sample_s=0.05, sites=(*BENCHMARK.sites, sensor), signals=BUS.signals)
+    assert HinfFilter.from_design(static(), bus).watches == ("f1", "f2", "f3")

@@ -6,12 +6,18 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
+from fddbench.blocks.layout import Nothing
 from fddbench.detection.voting_monitor import VotingMonitor
 from fddbench.errors import DesignError
-from fddbench.interfaces import Bus
+from fddbench.interfaces import Bus, Site
 from fddbench.voting.median import Median
 
-BUS = Bus(sample_s=0.01, sites=("r1", "r2", "r3"), signals={"r_deg_s": 3, "r_voted_deg_s": 0})
+
+def sites(n):
+    return tuple(Site(name=f"r{i + 1}", signal="r_deg_s", row=i, unit_name="deg/s", admissible=40.0) for i in range(n))
+
+
+BUS = Bus(sample_s=0.01, sites=sites(3), signals={"r_deg_s": 3, "r_voted_deg_s": 0})
 
 
 def monitor(confirm_one_s=0.1, bus=BUS):
@@ -20,15 +26,16 @@ def monitor(confirm_one_s=0.1, bus=BUS):
 
 def declared_of(r, detector):
     """Declared sites, (n_time, 3, n_cases), for sensors (n_time, 3, n_cases)."""
-    state, found = detector.start(r.shape[2]), []
+    state, found = detector.states.spread(detector.start(Nothing()), r.shape[2]), []
     for sample in r:
-        state, verdict = detector.step(state, SimpleNamespace(r_deg_s=sample, r_voted_deg_s=Median().vote(sample)))
+        measured = SimpleNamespace(r_deg_s=sample, r_voted_deg_s=Median().vote(sample))
+        state, verdict = detector.step(state, Nothing(), Nothing(), measured)
         found.append(verdict.declared)
     return np.array(found)
 
 
-def sensors(first=200, n=400, sites=(1,), last=None):
-    r = np.zeros((n, 3, 1))
+def sensors(first=200, n=400, sites=(1,), last=None, n_sensors=3):
+    r = np.zeros((n, n_sensors, 1))
     r[first:last, list(sites)] = 0.5
     return r
 
@@ -75,12 +82,28 @@ def test_the_confirmation_is_a_time_and_not_a_number(sample_s):
     assert np.flatnonzero(n)[0] == 200 + round(0.1 / sample_s)
 
 
-def test_ratio_is_deviation_over_threshold():
+def test_residual_is_deviation_over_threshold():
     detector = monitor()
     r = np.array([[0.0], [0.9], [-0.1]])
-    _, verdict = detector.step(detector.start(1), SimpleNamespace(r_deg_s=r, r_voted_deg_s=np.zeros(1)))
-    assert verdict.ratio[0] == pytest.approx(3.0)
+    state = detector.states.spread(detector.start(Nothing()), 1)
+    measured = SimpleNamespace(r_deg_s=r, r_voted_deg_s=np.zeros(1))
+    _, verdict = detector.step(state, Nothing(), Nothing(), measured)
+    assert verdict.residual[0] == pytest.approx(3.0)
     assert set(verdict.signals) == set(detector.recorded)
+
+
+@pytest.mark.parametrize("n", [2, 4, 5, 7])
+def test_it_watches_as_many_sensors_as_there_are(n):
+    bus = Bus(sample_s=0.01, sites=sites(n), signals={"r_deg_s": n, "r_voted_deg_s": 0})
+    detector = monitor(bus=bus)
+    assert detector.watches == tuple(f"r{i + 1}" for i in range(n))
+    r = sensors(sites=(n - 1,), n_sensors=n)
+    r[:, n - 1] *= 2.0
+    declared = declared_of(r, detector)
+    first = np.flatnonzero(declared.sum(axis=1)[:, 0])[0]
+    assert first == 210
+    # of two sensors nobody can say which; of more the one that is off
+    assert declared[-1, :, 0].tolist() == ([1.0, 0.0] if n == 2 else [0.0] * (n - 1) + [1.0])
 
 
 def test_bits_do_not_depend_on_the_company():
@@ -93,6 +116,8 @@ def test_bits_do_not_depend_on_the_company():
 
 def test_what_it_needs_and_refuses():
     with pytest.raises(DesignError, match="needs the signals .'r_voted_deg_s'."):
-        monitor(bus=Bus(sample_s=0.01, sites=("a",), signals={"r_deg_s": 3}))
+        monitor(bus=Bus(sample_s=0.01, sites=sites(1), signals={"r_deg_s": 3}))
+    with pytest.raises(DesignError, match="needs 2 or more redundant sensors on r_deg_s"):
+        monitor(bus=Bus(sample_s=0.01, sites=sites(1), signals=BUS.signals))
     with pytest.raises(ValidationError, match="greater than 0"):
         VotingMonitor.Gains(flag_threshold_deg_s=0.0, confirm_one_s=1.0)

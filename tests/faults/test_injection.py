@@ -1,4 +1,4 @@
-"""The one fault step: closed forms sample by sample, and every bit of the healthy signal where there is no fault."""
+"""Faults on a signal: closed forms sample by sample, and every bit of the healthy signal where there is no fault."""
 
 import numpy as np
 import pytest
@@ -7,16 +7,20 @@ from hypothesis import strategies as st
 
 from fddbench.faults.bias import Bias
 from fddbench.faults.drift import Drift
-from fddbench.faults.injection import NEVER, FaultStep, first_samples
+from fddbench.faults.injection import SignalFaults
 from fddbench.faults.jam import Jam
 from fddbench.faults.noise import Noise
 from fddbench.faults.nrz import Nrz
 from fddbench.faults.oscillatory import Oscillatory
 from fddbench.faults.runaway import Runaway
-from fddbench.interfaces import FaultUnits
+from fddbench.faults.timing import NEVER, first_samples
+from fddbench.interfaces import FlightFaults, Site
 
-SITES = ("r1", "r2", "r3")
-UNITS = FaultUnits(unit="deg/s", admissible=40.0, sensor_range=128.0)
+NAMES = ("r1", "r2", "r3")
+SITES = tuple(
+    Site(name=name, signal="r_deg_s", row=row, unit_name="deg/s", admissible=40.0, stops=(-128.0, 128.0))
+    for row, name in enumerate(NAMES)
+)
 N = 60
 T = 0.01
 KINDS = {
@@ -47,20 +51,37 @@ def normals_of(n_cases=1, seed=1, slots=1, n=N):
     return np.random.default_rng(seed).normal(size=(n, slots, 4, n_cases))
 
 
-def fly(faults, healthy=None, normals=None, *, slots=None, sample_s=T, phases=None):
-    """Faulty signal, (n_time, n_sites, n_cases)."""
-    healthy = healthy_signal() if healthy is None else healthy
-    n, _, n_cases = healthy.shape
-    slots = len(faults) if slots is None else slots
-    step = FaultStep(SITES, slots, sample_s)
-    normals = normals_of(n_cases, slots=slots, n=n) if normals is None else normals
-    rows = step.rows(faults, UNITS, np.full((slots, 3, n_cases), 0.25) if phases is None else phases)
-    state, found = step.states.zeros(n_cases), []
-    for k in range(n):
-        signal, state = step.step(healthy[k], state, rows, list(normals[k]), float(k))
+def rows_of(step, scenarios, which, uniform=None):
+    """Constants of flights, and their state before sample 0."""
+    which = np.asarray(which)
+    slots = max((len(one) for one in scenarios), default=0)
+    uniform = np.full((slots, len(SITES), len(which)), 0.25) if uniform is None else uniform
+    constants = step.prepare(FlightFaults(lists=scenarios, which=which, uniform=uniform))
+    return constants, step.states.spread(step.start(constants), len(which))
+
+
+def run(step, constants, state, healthy, normals):
+    """Faulty signal, (n_time, n_sites, n_cases); normals (n_time, slots, 4, n_cases) by the number of the slot."""
+    found = []
+    for k in range(len(healthy)):
+        drawn = [normals[k, consumer - 64] for consumer, _ in step.draws.streams]
+        numbers = step.draws.unpack(np.concatenate([*drawn, np.zeros((0, healthy.shape[2]))]))
+        state, signal = step.step(state, constants, numbers, healthy[k], float(k))
         found.append(signal)
     return np.array(found)
 
+
+def fly(faults, healthy=None, normals=None, *, others=(), sample_s=T, phases=None):
+    """Faulty signal, (n_time, n_sites, n_cases), of one scenario in a campaign that has others besides."""
+    healthy = healthy_signal() if healthy is None else healthy
+    n, _, n_cases = healthy.shape
+    scenarios = [faults, *others]
+    normals = normals_of(n_cases, slots=max(map(len, scenarios)), n=n) if normals is None else normals
+    step = SignalFaults(SITES, "r_deg_s", scenarios, sample_s)
+    return run(step, *rows_of(step, scenarios, np.zeros(n_cases, dtype=int), phases), healthy, normals)
+
+
+FROZEN = fault("jam", amplitude_deg_s=None, mode="replace", freeze=True)
 
 every_kind = pytest.mark.parametrize("name", sorted(KINDS))
 
@@ -95,8 +116,10 @@ def test_bit_identical_before_the_onset_after_the_end_and_on_other_sites(name, m
 
 def test_an_empty_slot_and_no_slot_at_all_change_nothing():
     healthy = healthy_signal()
-    assert fly([], healthy, slots=3).tobytes() == healthy.tobytes()
-    assert fly([], healthy, slots=0).tobytes() == healthy.tobytes()
+    assert fly([], healthy, others=[[fault(name) for name in KINDS]]).tobytes() == healthy.tobytes()
+    assert fly([], healthy, others=[[FROZEN, FROZEN, FROZEN]]).tobytes() == healthy.tobytes()
+    assert fly([], healthy).tobytes() == healthy.tobytes()
+    assert SignalFaults(SITES, "r_deg_s", [[]], T).states.size == 0
 
 
 SINCE = np.maximum(np.arange(N) - 20, 0) * T
@@ -207,8 +230,8 @@ def test_a_drawn_phase_is_uniform_number_times_a_turn(correlation):
 @given(st.integers(0, 30), st.integers(0, 20))
 @settings(max_examples=20)
 def test_delay_shifts_the_second_and_third_site(onset, delay):
-    spec = fault("runaway", sites=SITES, onset_s=onset * T, delay_s=delay * T)
-    assert first_samples(spec, SITES, T) == [onset, onset + delay, onset + 2 * delay]
+    spec = fault("runaway", sites=NAMES, onset_s=onset * T, delay_s=delay * T)
+    assert first_samples(spec, NAMES, T) == [onset, onset + delay, onset + 2 * delay]
     found = fly([spec], np.zeros((N, 3, 1)))[:, :, 0]
     for i in range(3):
         expected = 7.0 * np.maximum(np.arange(N) - onset - i * delay, 0) * T
@@ -216,7 +239,7 @@ def test_delay_shifts_the_second_and_third_site(onset, delay):
 
 
 def test_delay_follows_the_order_in_which_the_sites_are_named():
-    assert first_samples(fault("jam", sites=("r3", "r1"), delay_s=0.1), SITES, T) == [30.0, NEVER, 20.0]
+    assert first_samples(fault("jam", sites=("r3", "r1"), delay_s=0.1), NAMES, T) == [30.0, NEVER, 20.0]
 
 
 @pytest.mark.parametrize("name", sorted(KINDS))
@@ -228,12 +251,45 @@ def test_shifting_the_onset_shifts_the_fault(name):
     assert here[20:53].tobytes() == later[27:].tobytes()
 
 
-def test_freeze_holds_the_last_healthy_sample():
+def test_freeze_holds_the_last_reading():
     healthy = healthy_signal(3)
     found = fly([fault("jam", amplitude_deg_s=None, mode="replace", freeze=True, delay_s=0.03)], healthy)
     assert np.array_equal(found[20:, 0], np.broadcast_to(healthy[19, 0], (40, 3)))
     assert np.array_equal(found[23:, 1], np.broadcast_to(healthy[22, 1], (37, 3)))
     assert np.array_equal(found[:23, 1], healthy[:23, 1])
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_a_frozen_reading_has_every_fault_in_it_whatever_the_line_it_stands_in(order):
+    healthy, early = healthy_signal(2), fault("drift", sites=("r1",), onset_s=0.1)
+    found = fly([early, FROZEN][::order], healthy)
+    assert (healthy[19, 0] + 0.27 == found[19, 0]).all()  # 3 deg/s^2 for 0.09 s
+    held = found[20:, 0] if order == 1 else found[20:, 0] - np.minimum(3.0 * (SINCE[20:, None] + 0.1), 0.5)
+    np.testing.assert_allclose(held, np.broadcast_to(found[19, 0], (40, 2)), rtol=1e-14, atol=1e-14)
+    assert np.array_equal(found[20:, 1], np.broadcast_to(healthy[19, 1], (40, 2)))
+
+
+def test_a_freeze_that_follows_another_holds_what_that_one_showed():
+    healthy = healthy_signal(2)
+    hold = fault("jam", amplitude_deg_s=None, mode="replace", hold_value_deg_s=2.5, onset_s=0.1, end_s=0.2)
+    found = fly([hold, FROZEN], healthy)
+    assert (found[10:, :2] == 2.5).all()
+
+
+def test_what_freezes_at_the_first_sample_holds_that_sample():
+    healthy = healthy_signal(3)
+    found = fly([fault("jam", amplitude_deg_s=None, mode="replace", freeze=True, onset_s=0.0)], healthy)
+    assert np.array_equal(found[:, 0], np.broadcast_to(healthy[0, 0], (N, 3)))
+    assert np.array_equal(found[:, 2], healthy[:, 2])
+
+
+def test_what_thaws_reads_again_and_may_freeze_again():
+    healthy = healthy_signal(2)
+    more = {"amplitude_deg_s": None, "mode": "replace", "freeze": True}
+    found = fly([fault("jam", **more, end_s=0.3), fault("jam", **more, onset_s=0.4)], healthy)[:, 0]
+    assert np.array_equal(found[20:30], np.broadcast_to(healthy[19, 0], (10, 2)))
+    assert np.array_equal(found[30:40], healthy[30:40, 0])
+    assert np.array_equal(found[40:], np.broadcast_to(healthy[39, 0], (20, 2)))
 
 
 @pytest.mark.parametrize(("hold", "value"), [({"hold_value_deg_s": 2.5}, 2.5), ({"hold_value_percent": 10.0}, 4.0)])
@@ -264,28 +320,44 @@ def test_several_faults_act_one_after_the_other():
 
 def test_a_slot_more_changes_no_bit():
     healthy, normals = healthy_signal(2), normals_of(2, slots=3)
+    others = [[fault("bias"), fault("noise"), FROZEN]]
     for name in KINDS:
         one = fly([fault(name)], healthy, normals[:, :1])
-        assert one.tobytes() == fly([fault(name)], healthy, normals, slots=3).tobytes(), name
+        assert one.tobytes() == fly([fault(name)], healthy, normals, others=others).tobytes(), name
+
+
+EVERY = [*([fault(name)] for name in sorted(KINDS)), [FROZEN], []]
 
 
 def test_a_case_alone_has_the_bits_it_has_in_a_mixed_chunk():
-    """One chunk holds every kind; each case flown alone gives the same bits."""
-    n_cases = len(KINDS)
+    """One chunk holds every kind in one slot, frozen and healthy flights; each flown alone gives the same bits."""
+    n_cases = len(EVERY)
     healthy, normals = healthy_signal(n_cases), normals_of(n_cases)
-    step = FaultStep(SITES, 1, T)
-    rows = np.concatenate([step.rows([fault(n)], UNITS, np.full((1, 3, 1), 0.3)) for n in sorted(KINDS)], axis=1)
+    step = SignalFaults(SITES, "r_deg_s", EVERY, T)
+    assert len(step.slots) == 1
+    assert len(step.slots[0].kinds) == len(KINDS)
 
-    def run(which):
-        state, found = step.states.zeros(len(which)), []
-        for k in range(N):
-            signal, state = step.step(healthy[k][:, which], state, rows[:, which], [normals[k, 0][:, which]], float(k))
-            found.append(signal)
-        return np.array(found)
+    def flown(which, step=step, scenarios=EVERY):
+        part = rows_of(step, scenarios, which)
+        return run(step, *part, healthy[:, :, cases], normals[:, :, :, cases])
 
-    together = run(np.arange(n_cases))
+    cases = np.arange(n_cases)
+    together = flown(cases)
     for i in range(n_cases):
-        assert run(np.array([i])).tobytes() == np.ascontiguousarray(together[:, :, [i]]).tobytes()
+        cases = np.array([i])
+        own = np.ascontiguousarray(together[:, :, [i]]).tobytes()
+        assert flown(cases).tobytes() == own
+        # and in a campaign that knows no other kind
+        assert flown(np.array([0]), SignalFaults(SITES, "r_deg_s", [EVERY[i]], T), [EVERY[i]]).tobytes() == own
+
+
+def test_a_kind_that_nobody_uses_costs_nothing():
+    only = SignalFaults(SITES, "r_deg_s", [[fault("bias")]], T)
+    assert [kind.__name__ for kind in only.slots[0].kinds] == ["Bias"]
+    assert (only.draws.size, only.states.size) == (0, 0)
+    both = SignalFaults(SITES, "r_deg_s", [[fault("bias")], [], [fault("nrz")]], T)
+    assert [kind.__name__ for kind in both.slots[0].kinds] == ["Bias", "Nrz"]
+    assert (both.draws.streams, both.states.size) == (((64, "scenario"),), 3)
 
 
 @pytest.mark.parametrize("sample_s", [0.005, 0.01, 0.02, 0.04])
@@ -300,3 +372,96 @@ def test_onset_and_end_count_samples_at_every_sample_time(sample_s):
 def test_a_fault_may_start_at_the_first_sample():
     healthy = healthy_signal()
     assert np.array_equal(fly([fault("bias", onset_s=0.0)], healthy)[:, 0], healthy[:, 0] + 1.0)
+
+
+# a benchmark with sites of two signals in mixed order: positions are addresses, rows are places
+MIXED = (
+    Site(name="elevator", signal="surface_deg", row=4, unit_name="deg", admissible=20.0, stops=(-15.0, 15.0)),
+    Site(name="r2", signal="r_deg_s", row=1, unit_name="deg/s", admissible=40.0, stops=(-128.0, 128.0)),
+    Site(name="r1", signal="r_deg_s", row=0, unit_name="deg/s", admissible=40.0, stops=(-128.0, 128.0)),
+    Site(name="q1", signal="q_deg_s", row=0, unit_name="deg/s", admissible=10.0),
+    Site(name="rudder", signal="surface_deg", row=2, unit_name="deg", admissible=30.0, stops=(-30.0, 30.0)),
+)
+
+
+def fly_mixed(faults, normals_at, n_cases=3):
+    """Faulty signals by name, healthy ones zero; `normals_at` gives the four numbers of a consumer, (n_time, 4, n_cases)."""
+    found = {}
+    for signal in ("surface_deg", "r_deg_s", "q_deg_s"):
+        step = SignalFaults(MIXED, signal, [faults], T)
+        uniform = np.linspace(0.1, 0.9, len(MIXED))[np.newaxis, :, np.newaxis] * np.ones((len(faults), 1, n_cases))
+        which = np.zeros(n_cases, dtype=int)
+        constants = step.prepare(FlightFaults(lists=[faults], which=which, uniform=uniform))
+        state, healthy = step.states.spread(step.start(constants), n_cases), np.zeros((len(step.sites), n_cases))
+        for k in range(N):
+            drawn = [normals_at(consumer)[k] for consumer, _ in step.draws.streams]
+            numbers = step.draws.unpack(np.concatenate([*drawn, np.zeros((0, n_cases))]))
+            state, shown = step.step(state, constants, numbers, healthy, float(k))
+            for site, row in zip(step.sites, shown, strict=True):
+                found.setdefault(site.name, []).append(row)
+    return {name: np.array(rows) for name, rows in found.items()}
+
+
+def consumer_normals(consumer, n_cases=3):
+    return np.random.default_rng(consumer).normal(size=(N, 4, n_cases))
+
+
+def test_sites_of_a_signal_stand_in_the_order_of_its_rows():
+    step = SignalFaults(MIXED, "surface_deg", [[]], T)
+    assert ([site.name for site in step.sites], step.rows) == (["rudder", "elevator"], [2, 4])
+    assert [site.name for site in SignalFaults(MIXED, "r_deg_s", [[]], T).sites] == ["r1", "r2"]
+
+
+def test_one_fault_on_sites_of_two_signals_has_one_size_in_percent_one_delay_and_one_sign():
+    every = ("r2", "elevator", "r1")
+    jam = Jam(kind="jam", sites=every, onset_s=0.1, delay_s=0.1, amplitude_percent=10.0, correlation="opposite")
+    found = fly_mixed([jam], consumer_normals)
+    for name, first, size in (("r2", 10, 4.0), ("elevator", 20, -2.0), ("r1", 30, 4.0)):
+        expected = np.where(np.arange(N) >= first, size, 0.0)
+        np.testing.assert_allclose(found[name], np.repeat(expected[:, None], 3, axis=1), rtol=1e-15)
+    assert not found["q1"].any()
+    assert not found["rudder"].any()
+
+
+def test_a_runaway_ends_at_the_stops_of_each_site():
+    fast = Runaway(kind="runaway", sites=("elevator", "r1", "q1", "rudder"), onset_s=0.0, rate_percent_s=1e4)
+    found = fly_mixed([fast], consumer_normals)
+    assert [found[name][-1, 0] for name in ("elevator", "r1", "rudder")] == [15.0, 128.0, 30.0]
+    assert found["q1"][-1, 0] == pytest.approx(0.59 * 1000.0)  # no stops
+
+
+def test_noise_on_sites_of_two_signals_is_the_same_or_each_site_s_own_number():
+    """Identical: number 0 of the slot everywhere. Independent: that of the site's position; the fifth has one of its own."""
+    names = tuple(site.name for site in MIXED)
+    sigma = np.sqrt(np.array([20.0, 40.0, 40.0, 10.0, 30.0]) / 100.0)
+    own = [consumer_normals(64)[:, place] for place in range(4)] + [consumer_normals(1024)[:, 0]]
+    for correlation in ("identical", "independent"):
+        noise = Noise(kind="noise", sites=names, onset_s=0.0, variance_percent=1.0, correlation=correlation)
+        found = fly_mixed([noise], consumer_normals)
+        for position, name in enumerate(names):
+            expected = sigma[position] * own[position if correlation == "independent" else 0]
+            np.testing.assert_allclose(found[name], expected, rtol=1e-15)
+
+
+def test_a_drawn_phase_is_that_of_the_position_in_the_benchmark():
+    names = tuple(site.name for site in MIXED)
+    sine = Oscillatory(
+        kind="oscillatory", sites=names, onset_s=0.0, amplitude_percent=1.0, frequency_hz=1.0, phase="uniform",
+        correlation="independent",
+    )  # fmt: skip
+    found = fly_mixed([sine], consumer_normals)
+    for position, site in enumerate(MIXED):
+        turn = 2 * np.pi * (0.1 + 0.2 * position)
+        np.testing.assert_allclose(found[site.name][0], 0.01 * site.admissible * np.sin(turn), atol=1e-12)
+
+
+def test_kinds_stand_in_the_same_order_whoever_names_them_first():
+    """The order of the scenarios is no part of a result."""
+    plain = [Jam.in_unit("")(kind="jam", sites=("r1",), onset_s=0.2, amplitude_percent=1.0)]
+    again = [SignalFaults(SITES, "r_deg_s", [plain, *EVERY], T).slots[0].kinds for _ in range(3)]
+    assert [kind.__name__ for kind in again[0]].count("Jam") == 2
+    assert again[0] == again[1] == again[2]
+    assert again[0].index(type(plain[0])) < again[0].index(Jam)
+    first, second = (SignalFaults(SITES, "r_deg_s", order, T) for order in (EVERY, EVERY[::-1]))
+    assert first.slots[0].kinds == second.slots[0].kinds
+    assert (first.states.names, first.constants.names) == (second.states.names, second.constants.names)

@@ -74,7 +74,9 @@ PRINTED_B = (
 )
 
 
-@pytest.mark.parametrize(("tables", "printed"), [(MODEL.A, PRINTED_A), (MODEL.B, PRINTED_B)], ids=("A", "B"))
+@pytest.mark.parametrize(
+    ("tables", "printed"), [(MODEL.tables["A"], PRINTED_A), (MODEL.tables["B"], PRINTED_B)], ids=("A", "B")
+)
 def test_literature_printed_numbers(tables, printed):
     for table, row, column, value in printed:
         assert tables[table, row, column, 0] == value, (table, row, column)

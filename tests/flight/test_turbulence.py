@@ -6,20 +6,36 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.linalg import expm, solve_continuous_lyapunov
 
-from fddbench.flight import turbulence as gust
+from fddbench.blocks.layout import Nothing
+from fddbench.flight.turbulence import SCALE_LENGTH_M, WINDS, CalmAir, GustState, LateralGust
 
 times = st.floats(0.0005, 0.5)
 speeds = st.floats(80.0, 300.0)
 OUTPUT = np.array([np.sqrt(3.0), 1.0 - np.sqrt(3.0)])
 
 
+def prepared(sample_s=0.01, v=200.0, *, sigma=1.0, scale=1.0, normals=((0.0,), (0.0,))):
+    """Gust of one sigma, and its constants."""
+    gust, normals = LateralGust(sigma), np.array(normals)
+    n_cases = normals.shape[1]
+    speeds_m_s, scale_ratio = (np.broadcast_to(np.asarray(each, float), n_cases) for each in (v, scale))
+    return gust, gust.prepare(normals, scale_ratio=scale_ratio, v_tas_m_s=speeds_m_s, sample_s=sample_s)
+
+
+def stepped(gust, c, state, normals):
+    """State at the next sample, (2,), and the gust at this one, of one flight."""
+    x = GustState(first=np.array([state[0]]), second=np.array([state[1]]))
+    after, gust_m_s = gust.step(x, c, np.array(normals)[:, None], like=np.zeros(1))
+    return np.array([after.first[0], after.second[0]]), gust_m_s[0]
+
+
 def discrete(sample_s, v):
-    """Transition and noise input of the recursion, read off `gust_step` by unit states and unit normals."""
-    c = gust.gust_constants(sigma_m_s=np.ones(1), v_tas_m_s=np.array([v]), sample_s=sample_s)
+    """Transition and noise input of the recursion, read off the block by unit states and unit normals."""
+    gust, c = prepared(sample_s, v)
     eye, zero = np.eye(2), np.zeros(2)
-    F = np.column_stack([gust.gust_step(e[:, None], c, zero[:, None])[:, 0] for e in eye])
-    G = np.column_stack([gust.gust_step(zero[:, None], c, e[:, None])[:, 0] for e in eye])
-    H = np.array([gust.gust_m_s(e[:, None], c)[0] for e in eye])
+    F = np.column_stack([stepped(gust, c, e, zero)[0] for e in eye])
+    G = np.column_stack([stepped(gust, c, zero, e)[0] for e in eye])
+    H = np.array([stepped(gust, c, e, zero)[1] for e in eye])
     return F, G, H
 
 
@@ -30,7 +46,9 @@ def continuous(v):
 
 
 def stationary_start():
-    G0 = np.column_stack([gust.gust_start(e[:, None])[:, 0] for e in np.eye(2)])
+    gust, c = prepared(normals=np.eye(2))
+    begun = gust.start(c)
+    G0 = np.stack([begun.first, begun.second])
     return G0 @ G0.T
 
 
@@ -94,13 +112,29 @@ def test_autocovariance_does_not_depend_on_the_step(sample_s, v, n):
 
 
 def test_sigma_scales_the_gust_and_nothing_else():
-    v, normals = np.array([200.0, 200.0]), np.array([[0.3, 0.3], [-1.2, -1.2]])
-    c = gust.gust_constants(sigma_m_s=np.array([0.0, 3.0]), v_tas_m_s=v, sample_s=0.01)
-    unit = gust.gust_constants(sigma_m_s=np.ones(2), v_tas_m_s=v, sample_s=0.01)
-    state = gust.gust_step(gust.gust_start(normals), c, normals)
-    assert gust.gust_m_s(state, c).tolist() == [0.0, 3.0 * gust.gust_m_s(state, unit)[0]]
+    normals = np.array([[0.3, 0.3], [-1.2, -1.2]])
+    found = []
+    for sigma, scale in ((3.0, [0.0, 1.0]), (1.0, 1.0), (6.0, 0.5)):
+        gust, c = prepared(sigma=sigma, scale=scale, normals=normals)
+        state, _ = gust.step(gust.start(c), c, normals, like=np.zeros(2))
+        found.append((state, gust.step(state, c, normals, like=np.zeros(2))[1]))
+    assert found[0][1].tolist() == [0.0, 3.0 * found[1][1][0]]
+    assert found[2][1][0] == 3.0 * found[1][1][0]
+    assert found[0][0].first.tolist() == found[1][0].first.tolist()
+    assert found[0][0].second.tolist() == found[1][0].second.tolist()
 
 
 def test_literature_intensities():
-    assert gust.WINDS_M_S == {"none": 0.0, "light": 1.5, "moderate": 3.0, "severe": 6.0}
-    assert pytest.approx(1750 * 0.3048) == gust.SCALE_LENGTH_M
+    sigmas = {name: wind.sigma_m_s for name, wind in WINDS.items() if isinstance(wind, LateralGust)}
+    assert sigmas == {"light": 1.5, "moderate": 3.0, "severe": 6.0}
+    assert isinstance(WINDS["none"], CalmAir)
+    assert next(iter(WINDS)) == "none"  # what flies when nobody says
+    assert pytest.approx(1750 * 0.3048) == SCALE_LENGTH_M
+
+
+def test_calm_air_costs_nothing_and_is_still():
+    calm, nothing = CalmAir(), Nothing()
+    assert [layout.size for layout in (calm.states, calm.constants, calm.draws, calm.before)] == [0, 0, 0, 0]
+    c = calm.prepare(nothing, scale_ratio=np.ones(3), v_tas_m_s=np.full(3, 200.0), sample_s=0.01)
+    after, gust_m_s = calm.step(calm.start(c), c, nothing, like=np.full(3, 7.0))
+    assert (after, gust_m_s.tolist()) == (nothing, [0.0, 0.0, 0.0])

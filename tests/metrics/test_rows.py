@@ -1,5 +1,7 @@
 """From scores to columns: statuses in their order of precedence, site order, times without binary dust."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -10,12 +12,16 @@ SITES = ("r1", "r2", "r3")
 
 
 def scored(n_cases=1, *, k0=200.0, n_faulty=2, last=1000.0, events=(), **state):
-    """Score state with some rows set, and its constants."""
+    """Score state with some rows set, and its constants; packed."""
     scoring = Scoring(3, len(events))
-    score = scoring.start(n_cases)
-    for name, value in state.items():
-        getattr(scoring.states.unpack(score), name)[...] = value
-    return scoring, score, scoring.rows(k0=k0, n_faulty=n_faulty, last=last, events=events, n_cases=n_cases)
+    constants = scoring.rows(k0=k0, n_faulty=n_faulty, last=last, events=events, n_cases=n_cases)
+    score = replace(scoring.start(scoring.constants.unpack(constants)), **state)
+    packed = scoring.states.pack(scoring.states.spread(score, n_cases), n_cases)
+    return scoring, packed, constants
+
+
+def event_times(first, last, own):
+    return EventTimes(first=first, last=last, own=np.array(own)[:, np.newaxis])
 
 
 def columns(
@@ -104,7 +110,7 @@ def test_flight_s_is_the_scored_length():
 
 
 def test_an_event_that_ends_before_its_limit_is_censored_and_one_after_it_is_missed():
-    events = [EventTimes(200.0, 219.0, (1.0, 0.0, 0.0)), EventTimes(300.0, NEVER, (0.0, 1.0, 0.0))]
+    events = [event_times(200.0, 219.0, (1.0, 0.0, 0.0)), event_times(300.0, NEVER, (0.0, 1.0, 0.0))]
     given = scored(events=events)
 
     def event(number, limit_s, **more):
@@ -118,6 +124,6 @@ def test_an_event_that_ends_before_its_limit_is_censored_and_one_after_it_is_mis
 
 def test_an_event_cut_off_by_a_departure_exactly_at_its_limit_is_censored():
     """Departed at 336: the last scored sample is 335, one before the limit of 36 samples could pass."""
-    events = [EventTimes(300.0, NEVER, (0.0, 1.0, 0.0))]
+    events = [event_times(300.0, NEVER, (0.0, 1.0, 0.0))]
     row = one_event(*scored(events=events), event=0, limit_s=0.36, end=335.0)
     assert row["censored"]

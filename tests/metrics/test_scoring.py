@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from fddbench.blocks.layout import Nothing
 from fddbench.interfaces import Verdict
 from fddbench.metrics.rows import Truth, event_columns, score_columns, statuses
 from fddbench.metrics.scoring import NEVER, EventTimes, Scoring
@@ -24,7 +25,7 @@ def flights(draw):
     for k in range(n):
         now = changes.get(k, now)
         declared.append(now)
-    ratio = draw(st.lists(st.floats(0.0, 5.0), min_size=n, max_size=n))
+    residual = draw(st.lists(st.floats(0.0, 5.0), min_size=n, max_size=n))
     n_faults = draw(st.integers(0, 2))
     faults = []
     for _ in range(n_faults):
@@ -34,11 +35,28 @@ def flights(draw):
     return {
         "n": n,
         "declared": declared,
-        "ratio": ratio,
+        "residual": residual,
         "faults": faults,
         "departed": draw(st.one_of(st.none(), st.integers(0, n + 2))),
         "limit": draw(st.integers(1, n + 2)),
     }
+
+
+def verdict_of(declared, residual, alarm=None):
+    """Verdict on every site, (3, n_cases); alarm: where any is declared."""
+    alarm = np.where(np.any(declared, axis=0), 1.0, 0.0) if alarm is None else alarm
+    return Verdict(declared, residual, alarm=alarm)
+
+
+def event_of(first, last, own):
+    sites = np.array([[float(site in own)] for site in SITES])
+    return EventTimes(first=float(first), last=NEVER if last is None else float(last), own=sites)
+
+
+def begun(scoring, constants):
+    """Constants as a record, and the score before sample 0."""
+    c = scoring.constants.unpack(constants)
+    return c, scoring.states.spread(scoring.start(c), constants.shape[1])
 
 
 def score_of(flight, *, tail=4):
@@ -50,20 +68,19 @@ def score_of(flight, *, tail=4):
         k0=min((float(first) for first, *_ in faults), default=NEVER),
         n_faulty=len(truly),
         last=float(flight["n"] - 1),
-        events=[
-            EventTimes(float(first), NEVER if last is None else float(last), tuple(float(s in own) for s in SITES))
-            for first, last, own in faults
-        ],
+        events=[event_of(*fault) for fault in faults],
         n_cases=1,
     )
     departed = NEVER if flight["departed"] is None else float(flight["departed"])
-    state = scoring.start(1)
+    c, state = begun(scoring, constants)
     for k in range(flight["n"] + tail):
         # after the end of this flight its neighbours still fly; what is declared then must not count
         declared = flight["declared"][k] if k < flight["n"] else (1, 1, 1)
-        ratio = flight["ratio"][k] if k < flight["n"] else np.nan
-        verdict = Verdict(np.array(declared, float)[:, None], np.array([ratio]))
-        state = scoring.step(state, verdict, constants, float(k), np.array([k < departed]))
+        residual = flight["residual"][k] if k < flight["n"] else np.nan
+        verdict = verdict_of(np.array(declared, float)[:, None], np.array([residual]))
+        state, number = scoring.step(state, c, Nothing(), verdict, float(k), np.array([k < departed]))
+        assert number.tolist() == [sum(declared)]
+    state = scoring.states.pack(state)
     status, reason = statuses(scoring, state, constants, departed=np.array([departed]), infeasible=[""], errors=[""])
     limit_s = round(flight["limit"] * T, 9) if faults else None
     columns = score_columns(
@@ -107,7 +124,7 @@ def reference(flight):
         "n_declared": len(final),
         "declared_sites": "+".join(s for s in SITES if s in final) or None,
         "false_alarm": any(sites[k] for k in healthy),
-        "margin_healthy": None if k0 == 0 else max((flight["ratio"][k] for k in healthy), default=0.0),
+        "margin_healthy": None if k0 == 0 else max((flight["residual"][k] for k in healthy), default=0.0),
     }
     if k0 is not None:
         censored = detection is None and flight["n"] - 1 - k0 < limit
@@ -122,7 +139,7 @@ def reference(flight):
             "over_declared": any(len(sites[k]) > len(truly) for k in faulty),
             "missed": None if censored else detection is None or detection - k0 > limit,
             "censored": censored,
-            "margin_faulty": max((flight["ratio"][k] for k in faulty), default=0.0),
+            "margin_faulty": max((flight["residual"][k] for k in faulty), default=0.0),
         }
     return out, "ok"
 
@@ -161,7 +178,7 @@ def test_every_event_is_scored_on_its_own_sites_and_interval(flight):
 
 
 def flight_of(n, declared, **more):
-    base = {"n": n, "declared": [declared(k) for k in range(n)], "ratio": [0.1] * n, "departed": None, "limit": 10}
+    base = {"n": n, "declared": [declared(k) for k in range(n)], "residual": [0.1] * n, "departed": None, "limit": 10}
     return base | {"faults": []} | more
 
 
@@ -239,7 +256,7 @@ def test_a_healthy_flight_that_departs_has_diverged():
 @pytest.mark.parametrize("bad", [np.nan, np.inf])
 def test_a_verdict_that_is_no_number_gives_no_score(bad):
     flight = flight_of(20, lambda k: R1 if k >= 7 else NONE, faults=[(5, None, ["r1"])])
-    flight["ratio"][3] = bad
+    flight["residual"][3] = bad
     row, status, reason, _ = score_of(flight)
     assert status == "nonfinite"
     assert "not a finite number" in reason
@@ -254,47 +271,66 @@ def test_a_case_alone_scores_as_in_company(many):
     scoring, alone = Scoring(3, 2), []
     columns = []
     for flight in many:
-        events = [
-            EventTimes(float(f), NEVER if e is None else float(e), tuple(float(s in own) for s in SITES))
-            for f, e, own in flight["faults"]
-        ]
+        events = [event_of(*fault) for fault in flight["faults"]]
         k0 = min((float(first) for first, *_ in flight["faults"]), default=NEVER)
         n_faulty = len({s for *_, own in flight["faults"] for s in own})
         columns.append(scoring.rows(k0=k0, n_faulty=n_faulty, last=flight["n"] - 1.0, events=events, n_cases=1))
     constants, longest = np.concatenate(columns, axis=1), max(flight["n"] for flight in many)
 
     def run(which):
-        state = scoring.start(len(which))
+        c, state = begun(scoring, constants[:, which])
         for k in range(longest):
             each = [many[i] for i in which]
             declared = np.array([f["declared"][min(k, f["n"] - 1)] for f in each], float).T
-            ratio = np.array([f["ratio"][min(k, f["n"] - 1)] for f in each])
+            residual = np.array([f["residual"][min(k, f["n"] - 1)] for f in each])
             alive = np.array([f["departed"] is None or k < f["departed"] for f in each])
-            state = scoring.step(state, Verdict(declared, ratio), constants[:, which], float(k), alive)
-        return state
+            state, _ = scoring.step(state, c, Nothing(), verdict_of(declared, residual), float(k), alive)
+        return scoring.states.pack(state)
 
     together = run(list(range(len(many))))
     alone = np.concatenate([run([i]) for i in range(len(many))], axis=1)
     assert together.tobytes() == alone.tobytes()
 
 
+def scored(verdicts, *, n_faulty=1, k0=0.0, events=(), n_cases=1):
+    """Score after these verdicts, one a sample."""
+    scoring = Scoring(3, len(events))
+    constants = scoring.rows(k0=k0, n_faulty=n_faulty, last=len(verdicts) - 1.0, events=events, n_cases=n_cases)
+    c, state = begun(scoring, constants)
+    for k, verdict in enumerate(verdicts):
+        state, _ = scoring.step(state, c, Nothing(), verdict, float(k), np.ones(n_cases, bool))
+    scoring.states.check(state, n_cases)
+    return state
+
+
 def test_a_plug_in_may_declare_with_booleans():
-    scoring = Scoring(3, 0)
-    constants = scoring.rows(k0=0.0, n_faulty=1, last=5.0, events=[], n_cases=1)
-    verdict = Verdict(np.array([[True], [True], [False]]), np.ones(1))
-    state = scoring.step(scoring.start(1), verdict, constants, 0.0, np.ones(1, bool))
-    assert scoring.states.unpack(state).over_declared[0] == 1.0
+    state = scored([verdict_of(np.array([[True], [True], [False]]), np.ones(1), np.array([True]))])
+    assert (state.over_declared[0], state.first_alarm[0], state.nonfinite[0]) == (1.0, 0.0, 0.0)
 
 
 def test_a_site_that_another_fault_has_made_faulty_is_no_early_alarm():
     """r1 fails at 2 and is declared; the second fault, on r1 and r2 from 5 on, is not declared before its time by that."""
-    scoring = Scoring(3, 2)
-    events = [EventTimes(2.0, NEVER, (1.0, 0.0, 0.0)), EventTimes(5.0, NEVER, (1.0, 1.0, 0.0))]
-    constants = scoring.rows(k0=2.0, n_faulty=2, last=9.0, events=events, n_cases=2)
-    state = scoring.start(2)
-    for k in range(10):
-        declared = np.array([[k >= 3, k >= 3], [k >= 6, k >= 4], [False, False]])
-        state = scoring.step(state, Verdict(declared, np.ones(2)), constants, float(k), np.ones(2, bool))
-    x = scoring.states.unpack(state)
-    assert x.early_0.tolist() == [0.0, 0.0]
-    assert x.early_1.tolist() == [0.0, 1.0]
+    events = [event_of(2, None, ["r1"]), event_of(5, None, ["r1", "r2"])]
+    declared = [np.array([[k >= 3, k >= 3], [k >= 6, k >= 4], [False, False]]) for k in range(10)]
+    verdicts = [verdict_of(each, np.ones(2)) for each in declared]
+    state = scored(verdicts, k0=2.0, n_faulty=2, events=events, n_cases=2)
+    assert state.events[0].early.tolist() == [0.0, 0.0]
+    assert state.events[1].early.tolist() == [0.0, 1.0]
+
+
+@pytest.mark.parametrize("value", [0.5, 2.0, -1.0, np.nan])
+def test_a_verdict_is_zero_or_one_and_is_not_repaired(value):
+    none, quiet = np.zeros((3, 1)), np.zeros(1)
+    declared = np.array([[0.0], [value], [0.0]])
+    assert scored([verdict_of(declared, quiet, quiet)]).nonfinite[0] == 1.0
+    assert scored([verdict_of(none, quiet, np.array([value]))]).nonfinite[0] == 1.0
+    assert scored([verdict_of(none, quiet, quiet)]).nonfinite[0] == 0.0
+
+
+def test_an_alarm_without_a_declaration_is_an_alarm():
+    """A detector that only detects: its alarm is scored, and it declares nothing."""
+    none = np.zeros((3, 1))
+    verdicts = [verdict_of(none, np.zeros(1), np.array([float(k in (3, 7, 8))])) for k in range(10)]
+    state = scored(verdicts, k0=5.0)
+    assert (state.false_alarm[0], state.first_alarm[0], state.detection[0]) == (1.0, 7.0, NEVER)
+    assert not state.declared.any()

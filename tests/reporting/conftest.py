@@ -100,10 +100,13 @@ def synthetic_recording(rows, scenario, detectors, n_cases=50):
     reconstruction = 0.03 * rng.standard_normal(shape) + (0.8 * fault if n == 2 else 0.0)
     at = 2.0 + median + spread * rng.standard_normal(len(cases)) if n else np.full(len(cases), np.inf)
     verdict = np.where(time_s[:, None] >= at, float(n), 0.0)
-    full = {"ratio": np.abs(reconstruction) / 0.25, "n_declared": verdict, "reconstruction_deg_s": reconstruction}
+    full = {"residual": np.abs(reconstruction) / 0.25, "n_declared": verdict, "reconstruction_deg_s": reconstruction}
     full["threshold_deg_s"] = np.full(shape, 0.25)
     full["deviation_deg_s"] = np.abs(fault + 0.02 * rng.standard_normal(shape))
-    plain = {"ratio": np.abs(fault + 0.02 * rng.standard_normal(shape)) / 0.3, "n_declared": np.minimum(verdict, 1.0)}
+    plain = {
+        "residual": np.abs(fault + 0.02 * rng.standard_normal(shape)) / 0.3,
+        "n_declared": np.minimum(verdict, 1.0),
+    }
     return Recording(
         scenario=scenario,
         cases=cases,

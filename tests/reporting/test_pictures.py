@@ -65,8 +65,8 @@ def test_envelope_shows_only_what_varies(make_rows):
 
 
 def test_a_threshold_lies_with_the_signal_recorded_before_it():
-    names = ("n_declared", "ratio", "reconstruction_deg_s", "threshold_deg_s", "deviation_deg_s")
+    names = ("n_declared", "residual", "reconstruction_deg_s", "threshold_deg_s", "deviation_deg_s")
     expected = [["reconstruction_deg_s", "threshold_deg_s"], ["deviation_deg_s"], ["n_declared"]]
     assert signal_panels(dict.fromkeys(names, np.zeros((1, 1)))) == expected
-    plain = dict.fromkeys(("n_declared", "ratio", "energy"), np.zeros((1, 1)))
-    assert signal_panels(plain) == [["ratio"], ["energy"], ["n_declared"]]
+    plain = dict.fromkeys(("n_declared", "residual", "energy"), np.zeros((1, 1)))
+    assert signal_panels(plain) == [["residual"], ["energy"], ["n_declared"]]

@@ -6,7 +6,7 @@ import pytest
 
 from fddbench import gallery
 from fddbench.campaign.load import read_campaign
-from fddbench.runner.assembly import assemble
+from fddbench.runner.assembling import assemble
 
 TEXT = """\
 name: everything

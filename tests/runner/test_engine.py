@@ -5,12 +5,14 @@ import pytest
 import yaml
 from tests.runner.conftest import TEXT, write
 
-from fddbench import gallery, registry
+from fddbench import gallery, kinds
 from fddbench.blocks import kernel, llvm
+from fddbench.blocks.layout import Nothing, mapped
 from fddbench.campaign.load import read_campaign
+from fddbench.designs.adapted import Adapted
 from fddbench.errors import FddbenchError
 from fddbench.metrics.scoring import NEVER
-from fddbench.runner.assembly import assemble
+from fddbench.runner.assembling import assemble
 from fddbench.runner.eager import fly_eagerly
 from fddbench.runner.flight import Flyer
 from fddbench.runner.fused import Fused, why_opaque
@@ -25,7 +27,7 @@ DESIGNS = sorted(path.stem for path in gallery.folder("detectors").glob("*.yaml"
 
 
 def test_every_benchmark_has_a_campaign():
-    assert set(CAMPAIGNS) == set(registry.kinds("benchmark"))
+    assert set(CAMPAIGNS) == set(kinds.known("benchmark"))
 
 
 def _all_designs(benchmark):
@@ -47,18 +49,17 @@ def chunk(request):
     cases = np.unique(np.linspace(0, assembly.plan.n_cases - 1, 11).astype(np.int64))
     batch = assembly.batch(cases)
     batch = batch.take(np.flatnonzero([reason == "" for reason in batch.infeasible_reason]))
-    fused = Fused(assembly, tuple(fitting))
+    fused = Fused.of(assembly, tuple(fitting))
     addresses = kernel.Addresses(
         key=assembly.plan.campaign.seed, run=batch.run, flight=assembly.plan.stream, scenario=batch.scenario_stream
     )
-    streams = {"consumers": assembly.loop.consumers, "fault_consumers": assembly.loop.fault_consumers}
-    return assembly, batch, fused, addresses, streams
+    return assembly, batch, fused, addresses
 
 
 def _flown(chunk, *, samples=250, **options):
-    _, batch, fused, addresses, streams = chunk
-    state, constants = fused.start(batch)
-    built = kernel.build(fused.program(), **streams, **options)
+    _, batch, fused, addresses = chunk
+    state, constants = fused.packed(batch)
+    built = kernel.build(fused.program(), streams=fused.draws.streams, **options)
     each = np.full(len(batch.cases), samples, dtype=np.int64)
     return built.fly(state, constants, each, addresses, first=0, end=samples).state
 
@@ -79,7 +80,7 @@ def test_lanes_and_processors_change_no_bit(chunk, interpreted, target, lanes):
 
 
 def test_the_interpreter_is_what_plain_numpy_gives(chunk, interpreted):
-    assembly, batch, fused, _, _ = chunk
+    assembly, batch, fused, _ = chunk
     short = assembly.scoring.constants.unpack(rows := batch.score_constants.copy())
     short.last[...] = np.minimum(short.last, 249.0)
     object.__setattr__(batch, "score_constants", rows)
@@ -87,7 +88,7 @@ def test_the_interpreter_is_what_plain_numpy_gives(chunk, interpreted):
     x = fused.states.unpack(interpreted)
     np.testing.assert_array_equal(x.departed, departed)
     for i, name in enumerate(fused.detectors):
-        np.testing.assert_array_equal(getattr(x, f"score_{i}"), scores[name], err_msg=name)
+        np.testing.assert_array_equal(assembly.scoring.states.pack(x.scores[i]), scores[name], err_msg=name)
 
 
 @pytest.mark.parametrize("benchmark", sorted(CAMPAIGNS))
@@ -104,13 +105,17 @@ class WithIf:
     def __init__(self, inner):
         self.inner, self.states, self.recorded = inner, inner.states, inner.recorded
 
-    def start(self, n_cases):
-        return self.inner.start(n_cases)
+    @classmethod
+    def around(cls, adapted):
+        return Adapted(cls(adapted), adapted.bus)
 
-    def step(self, state, measured):
+    def start(self):
+        return self.inner.start(Nothing())
+
+    def step(self, x, measured):
         if (measured.r_voted_deg_s > 1e9).any():
             raise RuntimeError("never")
-        return self.inner.step(state, measured)
+        return self.inner.step(x, Nothing(), Nothing(), measured)
 
 
 class WithMemory(WithIf):
@@ -118,23 +123,25 @@ class WithMemory(WithIf):
 
     calls = 0
 
-    def step(self, state, measured):
+    def step(self, x, measured):
         self.calls += 1
-        after, verdict = self.inner.step(state, measured)
-        return after * (1.0 + 0.0 * self.calls) + 1e-300 * self.calls, verdict
+        after, verdict = self.inner.step(x, Nothing(), Nothing(), measured)
+        return mapped(lambda rows: rows * (1.0 + 0.0 * self.calls) + 1e-300 * self.calls, after), verdict
 
 
 def test_a_detector_that_cannot_be_compiled_flies_to_the_same_rows(tmp_path):
     assembly = assemble(read_campaign(write(tmp_path, TEXT)))
-    opaque = WithIf(assembly.detectors["sliding_mode_published"])
+    opaque = WithIf.around(assembly.detectors["sliding_mode_published"])
     reason = why_opaque(opaque, assembly.loop.bus)
     assert "np.where" in reason
     assert "test_engine.py" in reason
     assembly.detectors["sliding_mode_published"] = opaque
     flyer = Flyer(assembly)
     batch = assembly.batch(np.arange(0, 32, 2))
-    found = flyer.fly(batch, ["sliding_mode_published:ratio", "voting_monitor:ratio"])
-    scores, departed, _, tape = fly_eagerly(assembly, batch, ["sliding_mode_published:ratio", "voting_monitor:ratio"])
+    found = flyer.fly(batch, ["sliding_mode_published:residual", "voting_monitor:residual"])
+    scores, departed, _, tape = fly_eagerly(
+        assembly, batch, ["sliding_mode_published:residual", "voting_monitor:residual"]
+    )
     if llvm.available():
         assert set(flyer.opaque) == {"sliding_mode_published"}
     np.testing.assert_array_equal(found.departed, departed)
@@ -146,16 +153,16 @@ def test_a_detector_that_cannot_be_compiled_flies_to_the_same_rows(tmp_path):
 
 
 def test_a_detector_with_a_memory_of_its_own_is_opaque(assembly):
-    assert "between two calls" in why_opaque(WithMemory(assembly.detectors["voting_monitor"]), assembly.loop.bus)
+    assert "between two calls" in why_opaque(WithMemory.around(assembly.detectors["voting_monitor"]), assembly.loop.bus)
 
 
 class RaisesOnNan(WithIf):
     """An opaque detector that does not bear what is not a number."""
 
-    def step(self, state, measured):
+    def step(self, x, measured):
         if not np.isfinite(measured.r_voted_deg_s).all():
             raise ValueError("saw a NaN")
-        return self.inner.step(state, measured)
+        return self.inner.step(x, Nothing(), Nothing(), measured)
 
 
 @pytest.mark.parametrize("count", [1, 4])
@@ -167,7 +174,7 @@ def test_a_departed_flight_has_one_status_whoever_flies_it(tmp_path, count):
     batch = batch.take(np.flatnonzero([not reason for reason in batch.infeasible_reason]))
     departs = Flyer(assembly).fly(batch).departed < NEVER
     cases = batch.cases[np.argsort(~departs, kind="stable")][:count]
-    assembly.detectors["voting_monitor"] = RaisesOnNan(assembly.detectors["voting_monitor"])
+    assembly.detectors["voting_monitor"] = RaisesOnNan.around(assembly.detectors["voting_monitor"])
     rows = [rows_and_events(Flyer(assembly, backend), cases)[0].to_pylist() for backend in ("auto", "numpy")]
     assert rows[0] == rows[1]
     assert any(row["status"] == "diverged" for row in rows[0])

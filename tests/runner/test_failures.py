@@ -1,12 +1,16 @@
 """Failure is data: what a detector or a flight does wrong is a row with a status, and no other row knows."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from tests.runner.conftest import TEXT, write
 
+from fddbench.blocks.layout import Nothing
 from fddbench.campaign.load import read_campaign
-from fddbench.interfaces import Verdict
-from fddbench.runner.assembly import Assembly, assemble
+from fddbench.designs.adapted import Adapted
+from fddbench.runner.assembling import assemble
+from fddbench.runner.assembly import Assembly
 from fddbench.runner.flight import Flyer
 from fddbench.runner.work import rows_and_events
 
@@ -17,11 +21,11 @@ class Faulty:
     def __init__(self, inner, wrong):
         self.inner, self.wrong, self.states, self.recorded = inner, wrong, inner.states, inner.recorded
 
-    def start(self, n_cases):
-        return self.inner.start(n_cases)
+    def start(self):
+        return self.inner.start(Nothing())
 
-    def step(self, state, measured):
-        after, verdict = self.inner.step(state, measured)
+    def step(self, x, measured):
+        after, verdict = self.inner.step(x, Nothing(), Nothing(), measured)
         return after, self.wrong(verdict, measured)
 
 
@@ -32,7 +36,7 @@ def _raise_for_heavy(verdict, measured):
 
 
 def _nan(verdict, measured):
-    return Verdict(verdict.declared, np.where(measured.mass_kg > 200e3, np.nan, verdict.ratio), verdict.signals)
+    return replace(verdict, residual=np.where(measured.mass_kg > 200e3, np.nan, verdict.residual))
 
 
 def _flown_by(flyer):
@@ -41,7 +45,8 @@ def _flown_by(flyer):
 
 
 def _flown(assembly, wrong, backend):
-    detectors = {**assembly.detectors, "wrong": Faulty(assembly.detectors["voting_monitor"], wrong)}
+    monitor = assembly.detectors["voting_monitor"]
+    detectors = {**assembly.detectors, "wrong": Adapted(Faulty(monitor, wrong), monitor.bus)}
     broken = Assembly(plan=assembly.plan, loop=assembly.loop, detectors=detectors, scoring=assembly.scoring)
     return _flown_by(Flyer(broken, backend))
 

@@ -11,7 +11,7 @@ from tests.runner.conftest import TEXT, write
 from fddbench import load
 from fddbench.campaign.load import read_campaign
 from fddbench.results.table import load_events
-from fddbench.runner.assembly import assemble
+from fddbench.runner.assembling import assemble
 from fddbench.runner.flight import Flyer
 from fddbench.runner.run import run_campaign
 from fddbench.runner.work import rows_and_events

@@ -161,11 +161,15 @@ class Layout(Generic[T]):
         return filled(self.shape, (np.broadcast_to(value, shape) for value, shape in found))
 
     def _values(self, values: T) -> list[Any]:
+        """Leaves in declared order, found by their paths: another record may have the same ones in another order."""
         given = dict(leaves(values))
         if given.keys() != self.counts.keys():
-            missing, unknown = self.counts.keys() - given.keys(), given.keys() - self.counts.keys()
+            if "" in given:
+                raise TypeError(f"need a record of the fields {list(self.counts)}, got {type(values).__name__}")
+            # lists, not sets: the text becomes part of a row, which is the same every time
+            missing, unknown = [p for p in self.counts if p not in given], [p for p in given if p not in self.counts]
             raise TypeError(f"need exactly the fields {list(self.counts)}, {missing=}, {unknown=}")
-        return list(given.values())
+        return [given[path] for path in self.counts]
 
 
 def _wrong(path: str, rows: int, shape: tuple[int, ...]) -> str:

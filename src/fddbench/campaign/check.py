@@ -1,6 +1,6 @@
 """What a campaign would do, in words and numbers, before it burns an hour of two processors."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import ceil
 from textwrap import fill
 from typing import Any
@@ -42,13 +42,21 @@ def estimated_seconds(
 
 
 def describe(
-    plan: Plan, *, seconds_per_flight_step: float = 1e-6, overhead_s: float = 1e-3, chunk: int = 256, jobs: int = 2
+    plan: Plan,
+    *,
+    seconds_per_flight_step: float = 1e-6,
+    overhead_s: float = 1e-3,
+    chunk: int = 256,
+    jobs: int = 2,
+    notes: Sequence[str] = (),
 ) -> str:
-    """Text of what would run: the question, the scenarios, the dispersions, the designs, the bill."""
+    """Text of what would run: the question, the scenarios, the dispersions, the designs, notes on them, and the bill."""
     seconds = estimated_seconds(
         plan, seconds_per_flight_step=seconds_per_flight_step, overhead_s=overhead_s, chunk=chunk, jobs=jobs
     )
-    return "\n".join([*_head(plan.campaign), "", *_table(plan), "", *_rest(plan), "", *_bill(plan, seconds, jobs)])
+    told = [fill(note, _WIDTH, initial_indent="  ", subsequent_indent="    ") for note in notes]
+    parts = [*_head(plan.campaign), "", *_table(plan), "", *_rest(plan), *told, "", *_bill(plan, seconds, jobs)]
+    return "\n".join(parts)
 
 
 def _head(campaign: Campaign) -> Iterator[str]:

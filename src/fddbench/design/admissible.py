@@ -7,10 +7,10 @@ import numpy as np
 from fddbench.design.multipliers import MultiplierVariables
 from fddbench.design.norms import hinf_norm
 from fddbench.design.solver import modelling, solve
-from fddbench.design.systems import StateSpace, UncertainPlant
 from fddbench.design.uncertainty import Block, NormBounded, Polytope, Structured, Uncertainty
 from fddbench.errors import DesignError
 from fddbench.interfaces import Floats
+from fddbench.systems import StateSpace, UncertainPlant
 
 __all__ = ["require_admissible"]
 

@@ -8,10 +8,10 @@ from scipy.linalg import null_space
 from fddbench.design.problem import Augmented
 from fddbench.design.search import Fraction, climb
 from fddbench.design.solver import attempt, modelling
-from fddbench.design.systems import StateSpace
 from fddbench.design.uncertainty import Block, sample_delta
 from fddbench.errors import DesignError
 from fddbench.interfaces import Floats
+from fddbench.systems import StateSpace
 
 __all__ = ["lower_bound", "lower_bound_diagonal"]
 

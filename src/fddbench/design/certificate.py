@@ -6,9 +6,9 @@ import numpy as np
 
 from fddbench.design.multipliers import Multiplier
 from fddbench.design.problem import ClosedLoop
-from fddbench.design.systems import StateSpace
 from fddbench.errors import DesignError
 from fddbench.interfaces import Floats
+from fddbench.systems import StateSpace
 
 __all__ = ["Certificate", "bounded_real", "certify", "robust_matrix"]
 

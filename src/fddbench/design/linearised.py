@@ -9,8 +9,8 @@ from fddbench.design.lmi import EPSILON, FilterVariables, Solution, upper_part
 from fddbench.design.multipliers import MultiplierVariables
 from fddbench.design.problem import Augmented
 from fddbench.design.solver import modelling, solve
-from fddbench.design.systems import StateSpace
 from fddbench.interfaces import Floats
+from fddbench.systems import StateSpace
 
 __all__ = ["Freedom", "ReferenceVariables", "inequality_about", "sensitivity_about", "storage"]
 

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fddbench.design.systems import StateSpace
 from fddbench.errors import DesignError
 from fddbench.interfaces import Floats
+from fddbench.systems import StateSpace
 
 __all__ = ["Gain", "hinf_norm", "hminus_index", "level_frequencies"]
 

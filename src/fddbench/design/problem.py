@@ -4,11 +4,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.linalg import block_diag
 
-from fddbench.design.systems import StateSpace, UncertainPlant, Weights
+from fddbench.design.weights import Weights
 from fddbench.errors import DesignError
 from fddbench.interfaces import Floats
+from fddbench.systems import StateSpace, UncertainPlant, append, lower_lft, series
 
 __all__ = ["Augmented", "ClosedLoop", "Filter", "augment", "close"]
 
@@ -82,43 +82,38 @@ class Augmented:
 
 def augment(plant: UncertainPlant, reference: StateSpace, weights: Weights | None = None) -> Augmented:
     """Absorb the weights of (13) in the data of `plant` and make room for the states of `reference`."""
-    n_f, n_d, n_u = plant.inputs
+    n_f, _, n_u = plant.inputs
     if reference.D.shape != (n_f, n_f):
         raise DesignError(
             f"the reference has D of shape {reference.D.shape} but the plant has {n_f} faults (Bf {plant.Bf.shape}, "
             f"Df {plant.Df.shape}); T_ref must map {n_f} faults to {n_f} residuals."
         )
-    shaped = (weights or Weights()).systems(plant.inputs)
-    n_ref, orders = reference.order, [w.order for w in shaped]
-    Wa, Wb, Wc, Wd = (block_diag(*(getattr(w, name) for w in shaped)) for name in "ABCD")
-    left = np.zeros((n_ref, n_ref))
-    n_w, n_v = plant.FA.shape[1], Wd.shape[1]
-    inputs, outputs, seen = (np.hstack(row) for row in _rows(plant))
-    signals = np.hstack([np.zeros((len(Wc), n_ref)), Wc, np.zeros((len(Wc), plant.n_x))])
-    padded = [np.hstack([np.zeros((len(M), n_ref + sum(orders))), M]) for M in (plant.A, plant.C, plant.EA)]
-    u = np.eye(n_f + n_d + n_u)[n_f + n_d :]
-    A = block_diag(left, Wa, plant.A)
-    A[n_ref + sum(orders) :] += inputs @ signals
+    n_z, n_w = plant.H.shape
+    shaped = append(*(weights or Weights()).systems(plant.inputs))
+    n_m, n_v = plant.n_y + n_u, shaped.n_inputs
+    n_ref = reference.order
+    room = StateSpace(*(np.zeros(shape) for shape in ((n_ref, n_ref), (n_ref, 0), (0, n_ref), (0, 0))))
+    delta = StateSpace.gain(np.eye(n_w))
+    whole = append(room, series(append(delta, shaped), _watched(plant)))
+    w, v = slice(0, n_w), slice(n_w, n_w + n_v)
+    z, m, f = slice(0, n_z), slice(n_z, n_z + n_m), slice(n_z + n_m, None)
     return Augmented(
-        A=A,
-        B=np.vstack([np.zeros((n_ref, n_v)), Wb, inputs @ Wd]),
-        F=np.vstack([np.zeros((n_ref + sum(orders), n_w)), plant.FA]),
-        Cm=np.vstack([padded[1] + outputs @ signals, u @ signals]),
-        Dm=np.vstack([outputs, u]) @ Wd,
-        Fm=np.vstack([plant.FC, np.zeros((n_u, n_w))]),
-        E=padded[2] + seen @ signals,
-        Ev=seen @ Wd,
-        H=plant.H,
-        Wc=signals[:n_f],
-        Wd=Wd[:n_f],
-        n_ref=n_ref,
-        n_y=plant.n_y,
-    )
+        A=whole.A, B=whole.B[:, v], F=whole.B[:, w],
+        Cm=whole.C[m], Dm=whole.D[m, v], Fm=whole.D[m, w],
+        E=whole.C[z], Ev=whole.D[z, v], H=whole.D[z, w],
+        Wc=whole.C[f], Wd=whole.D[f, v],
+        n_ref=n_ref, n_y=plant.n_y,
+    )  # fmt: skip
 
 
-def _rows(plant: UncertainPlant) -> tuple[tuple[Floats, ...], ...]:
-    """Input matrices of state, output and Δ for (f, d, u)."""
-    return (plant.Bf, plant.Bd, plant.B), (plant.Df, plant.Dd, plant.D), (plant.Ef, plant.Ed, plant.EB)
+def _watched(plant: UncertainPlant) -> StateSpace:
+    """The plant from (w, f, d, u) to (z, y, u, f): what Δ sees, what the filter sees, what it should say."""
+    whole, (n_f, _, n_u) = plant.system(), plant.inputs
+    passed = np.eye(whole.n_inputs)
+    n_w = plant.H.shape[1]
+    u, f = passed[len(passed) - n_u :], passed[n_w : n_w + n_f]
+    rows = [whole.D, u, f]
+    return StateSpace(whole.A, whole.B, np.vstack([whole.C, np.zeros((n_u + n_f, whole.order))]), np.vstack(rows))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -140,24 +135,35 @@ class ClosedLoop:
 
     def at(self, delta: Floats) -> StateSpace:
         """Return the closed loop (14) at one Δ, (n_w, n_z)."""
-        delta_h = np.linalg.solve(np.eye(len(delta)) - delta @ self.H, delta)
-        x, r = self.Fr1 @ delta_h, self.Fr2 @ delta_h
-        return StateSpace(self.A + x @ self.Er1, self.B + x @ self.Er2, self.C + r @ self.Er1, self.D + r @ self.Er2)
+        return lower_lft(self.system(), StateSpace.gain(delta))
+
+    def system(self) -> StateSpace:
+        """Return it as one system from (v, w) to (r - r_ref, z)."""
+        direct = np.block([[self.D, self.Fr2], [self.Er2, self.H]])
+        return StateSpace(self.A, np.hstack([self.B, self.Fr1]), np.vstack([self.C, self.Er1]), direct)
 
 
 def close(augmented: Augmented, reference: StateSpace, filter_: Filter) -> ClosedLoop:
-    """Return the closed loop of the augmented plant with a filter."""
-    K = filter_.as_system()
-    A, B, Cr, Dr = augmented.with_reference(reference.A, reference.B, reference.C, reference.D)
-    n_k, n_z = len(K.A), len(augmented.H)
-    return ClosedLoop(
-        A=np.block([[A, np.zeros((len(A), n_k))], [K.B @ augmented.Cm, K.A]]),
-        B=np.vstack([B, K.B @ augmented.Dm]),
-        C=np.hstack([K.D @ augmented.Cm - Cr, K.C]),
-        D=K.D @ augmented.Dm - Dr,
-        Fr1=np.vstack([augmented.F, K.B @ augmented.Fm]),
-        Fr2=K.D @ augmented.Fm,
-        Er1=np.hstack([augmented.E, np.zeros((n_z, n_k))]),
-        Er2=augmented.Ev,
-        H=augmented.H,
+    """Return the closed loop of the augmented plant with a filter: from (v, w) to (r - r_ref, z)."""
+    plant = augmented
+    A, B, Cr, Dr = plant.with_reference(reference.A, reference.B, reference.C, reference.D)
+    n_f, n_v, n_w, n_z = len(plant.Wc), plant.B.shape[1], plant.F.shape[1], len(plant.H)
+    nothing = np.zeros((n_f, n_w))
+    open_loop = StateSpace(
+        A,
+        np.hstack([B, plant.F, np.zeros((len(A), n_f))]),
+        np.vstack([-Cr, plant.E, plant.Cm]),
+        np.block(
+            [
+                [-Dr, nothing, np.eye(n_f)],
+                [plant.Ev, plant.H, np.zeros((n_z, n_f))],
+                [plant.Dm, plant.Fm, np.zeros((len(plant.Cm), n_f))],
+            ]
+        ),
     )
+    whole = lower_lft(open_loop, filter_.as_system())
+    v, w, r, z = slice(0, n_v), slice(n_v, None), slice(0, n_f), slice(n_f, None)
+    return ClosedLoop(
+        A=whole.A, B=whole.B[:, v], C=whole.C[r], D=whole.D[r, v], H=whole.D[z, w],
+        Fr1=whole.B[:, w], Fr2=whole.D[r, w], Er1=whole.C[z], Er2=whole.D[z, v],
+    )  # fmt: skip

@@ -11,10 +11,10 @@ from fddbench.design.coordinates import transformed
 from fddbench.design.lmi import FilterVariables, Solution, inequality, positive, upper_part
 from fddbench.design.multipliers import Multiplier, MultiplierVariables
 from fddbench.design.problem import Augmented, ClosedLoop, Filter, close
-from fddbench.design.systems import StateSpace
 from fddbench.design.uncertainty import Block, sample_delta
 from fddbench.design.worst_case import hull_members
 from fddbench.interfaces import Floats
+from fddbench.systems import StateSpace
 
 __all__ = ["N_SAMPLED", "Proven", "Task", "prove"]
 

@@ -18,11 +18,11 @@ from fddbench.design.proof import Proven
 from fddbench.design.recipe_file import Recipe
 from fddbench.design.reference_search import optimize_reference
 from fddbench.design.robust_hinf import Design, synthesize
-from fddbench.design.systems import StateSpace, UncertainPlant
 from fddbench.design.uncertainty import NormBounded, blocks_of
 from fddbench.design.worst_case import worst_delta
 from fddbench.designs.design_file import DesignFile, design_text
 from fddbench.errors import DesignError
+from fddbench.systems import StateSpace, UncertainPlant
 
 __all__ = ["Cooked", "cook"]
 

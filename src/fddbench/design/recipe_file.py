@@ -6,8 +6,8 @@ import numpy as np
 from pydantic import Field
 
 from fddbench.campaign.rules.model import Strict
-from fddbench.design.systems import StateSpace
 from fddbench.errors import DesignError
+from fddbench.systems import StateSpace
 
 __all__ = ["Recipe", "ReferenceEntry"]
 
@@ -46,7 +46,7 @@ class Recipe(Strict):
     Attributes
     ----------
     plant : str, or mapping of str to matrix
-        A benchmark with `matrices`, or the fields of `fddbench.design.systems.UncertainPlant` themselves.
+        A benchmark with `matrices`, or the fields of `fddbench.systems.UncertainPlant` themselves.
     method : {"fixed_reference", "free_reference", "exact_inverse"}
         `synthesize`, `optimize_reference` (Algorithm 1 from this reference), or ``r = Df⁻¹ (y - C x̂ - D u)``.
     reference : ReferenceEntry

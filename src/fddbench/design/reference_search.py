@@ -14,10 +14,11 @@ from fddbench.design.proof import Task
 from fddbench.design.robust_hinf import Design, prepare, synthesize
 from fddbench.design.solver import attempt, modelling, solve
 from fddbench.design.synthesis import optimal
-from fddbench.design.systems import StateSpace, UncertainPlant, Weights
 from fddbench.design.uncertainty import NormBounded, Uncertainty
+from fddbench.design.weights import Weights
 from fddbench.errors import DesignError
 from fddbench.interfaces import Floats
+from fddbench.systems import StateSpace, UncertainPlant
 
 __all__ = ["Iteration", "ReferenceSearch", "normalised", "optimize_fixed_poles", "optimize_reference"]
 

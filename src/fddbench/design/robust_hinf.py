@@ -8,8 +8,6 @@ lemma numbers of this package are those of that paper.
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from fddbench.design.admissible import require_admissible
 from fddbench.design.bounds import lower_bound
 from fddbench.design.coordinates import balancing
@@ -17,9 +15,10 @@ from fddbench.design.norms import hinf_norm
 from fddbench.design.problem import augment
 from fddbench.design.proof import Proven, Task
 from fddbench.design.synthesis import moderate, optimal, refuse_idle
-from fddbench.design.systems import StateSpace, UncertainPlant, Weights
 from fddbench.design.uncertainty import NormBounded, Polytope, Uncertainty, blocks_of
+from fddbench.design.weights import Weights
 from fddbench.errors import DesignError
+from fddbench.systems import StateSpace, UncertainPlant, series
 
 __all__ = ["Design", "idle_gamma", "prepare", "synthesize"]
 
@@ -120,9 +119,5 @@ def synthesize(
 
 def idle_gamma(reference: StateSpace, plant: UncertainPlant, weights: Weights | None) -> float:
     """γ of the residual that is always zero, ``‖T_ref W_f‖∞`` [-]."""
-    W = (weights or Weights()).systems(plant.inputs)[0]
-    A = np.block([[reference.A, reference.B @ W.C], [np.zeros((W.order, reference.order)), W.A]])
-    both = StateSpace(
-        A, np.vstack([reference.B @ W.D, W.B]), np.hstack([reference.C, reference.D @ W.C]), reference.D @ W.D
-    )
-    return hinf_norm(both).value
+    W_f = (weights or Weights()).systems(plant.inputs)[0]
+    return hinf_norm(series(W_f, reference)).value

@@ -5,9 +5,9 @@ from typing import Protocol
 
 import numpy as np
 
-from fddbench.design.systems import UncertainPlant
 from fddbench.errors import DesignError
 from fddbench.interfaces import Floats
+from fddbench.systems import UncertainPlant
 
 __all__ = [
     "Block",

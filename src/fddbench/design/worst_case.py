@@ -7,9 +7,9 @@ import numpy as np
 from fddbench.design.norms import hinf_norm
 from fddbench.design.problem import ClosedLoop
 from fddbench.design.search import Fraction, climb
-from fddbench.design.systems import StateSpace
 from fddbench.design.uncertainty import Block, sample_delta
 from fddbench.interfaces import Floats
+from fddbench.systems import StateSpace
 
 __all__ = ["WorstCase", "hull_members", "worst_delta", "worst_vertex_mix"]
 
@@ -93,12 +93,7 @@ def _ascend(
 def _fraction(loop: ClosedLoop, frequency: float) -> Fraction:
     """Response of the closed loop at one frequency as a function of Δ."""
     n_r, n_v = loop.D.shape
-    whole = StateSpace(
-        loop.A,
-        np.hstack([loop.B, loop.Fr1]),
-        np.vstack([loop.C, loop.Er1]),
-        np.block([[loop.D, loop.Fr2], [loop.Er2, loop.H]]),
-    ).at(frequency)
+    whole = loop.system().at(frequency)
     return Fraction(whole[:n_r, :n_v], whole[:n_r, n_v:], whole[n_r:, :n_v], whole[n_r:, n_v:])
 
 

@@ -46,7 +46,10 @@ class Adapted:
     def step(self, x: Any, c: Nothing, n: Any, measured: SimpleNamespace) -> tuple[Any, Verdict]:
         """State after this sample, and the verdict on it."""
         own = SimpleNamespace(**vars(measured))
-        after, verdict = self.detector.step(x, c, n, own) if self.full else self.detector.step(x, own)
+        given = self.detector.step(x, c, n, own) if self.full else self.detector.step(x, own)
+        if not isinstance(given, tuple) or len(given) != 2:
+            raise DesignError(f"a step gives (state, Verdict), got {type(given).__name__}")
+        after, verdict = given
         self._check(verdict)
         declared = self._spread(verdict)
         alarm = verdict.alarm

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from fddbench.campaign.reading.document import refuse
 from fddbench.designs.design import Design
-from fddbench.designs.soundness import unsound
+from fddbench.designs.soundness import line_of, unsound
 from fddbench.errors import DesignError, Mistake, reason_of
 from fddbench.interfaces import Bus, Detector
 
@@ -27,7 +27,7 @@ def build_detectors(designs: Sequence[Design], bus: Bus) -> dict[str, Detector]:
         except DesignError as error:
             wrong = f"{design.kind.name} {error}" if str(error).startswith("needs ") else str(error)
         except (Exception, SystemExit) as error:  # a plug-in may raise anything
-            wrong = f"from_design raised {reason_of(error)}"
+            wrong = f"from_design raised {reason_of(error)}{line_of(error, design.kind.member, 'from_design')}"
         else:
             wrong = unsound(found[design.name], bus)
         if wrong:

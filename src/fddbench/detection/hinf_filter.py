@@ -9,11 +9,11 @@ from pydantic import BaseModel, ConfigDict, Field
 from fddbench.blocks.block import NO_DRAWS, NOTHING
 from fddbench.blocks.drawn import Draws
 from fddbench.blocks.layout import Layout, Nothing, Rows, record
-from fddbench.blocks.linear import column, largest, product, total
-from fddbench.blocks.tustin import tustin
+from fddbench.blocks.linear import column, largest, total
 from fddbench.detection.confirmation import held_samples, samples
 from fddbench.errors import DesignError
 from fddbench.interfaces import Bus, Verdict
+from fddbench.systems import DiscreteLti, StateSpace
 
 __all__ = ["HinfFilter", "HinfFilterGains"]
 
@@ -91,10 +91,8 @@ class HinfFilter:
 
     def __init__(self, gains: HinfFilterGains, bus: Bus) -> None:
         g = {name: np.array(getattr(gains, name), dtype=float) for name in _SIDES}
-        stacked = [
-            column(m) for m in (g["A"], np.hstack([g["B_y"], g["B_u"]]), g["C"], np.hstack([g["D_y"], g["D_u"]]))
-        ]
-        self.A, self.B, self.C, self.D = tustin(*stacked, sample_s=bus.sample_s)
+        system = StateSpace(g["A"], np.hstack([g["B_y"], g["B_u"]]), g["C"], np.hstack([g["D_y"], g["D_u"]]))
+        self.filter = DiscreteLti.of(system, bus.sample_s)
         self.n_residuals, self.thresholds = len(gains.thresholds), column(gains.thresholds)
         self.window = max(1, round(gains.window_s / bus.sample_s))
         self.confirm_samples = samples(gains.confirm_s, bus.sample_s)
@@ -132,13 +130,11 @@ class HinfFilter:
         """Verdict after one sample."""
         del c, n
         n_r = self.n_residuals
-        v = np.concatenate([measured.y, measured.u])
-        residual = product(self.C, x.filter) + product(self.D, v)
+        filtered, residual = self.filter.step(x.filter, np.concatenate([measured.y, measured.u]))
         window = np.concatenate([residual, x.window[:-n_r]])
         mean = total([window[n_r * j : n_r * (j + 1)] for j in range(self.window)]) / float(self.window)
         held = held_samples(x.held_samples, np.abs(mean) > self.thresholds)
         declared = np.maximum(x.declared, np.where(held - 1.0 >= self.confirm_samples, 1.0, 0.0))
-        filtered = product(self.A, x.filter) + product(self.B, v)
         after = FilterState(filter=filtered, window=window, held_samples=held, declared=declared)
         shown = {name: mean[i] for i, name in enumerate(self.evaluated)}
         shown |= {f"threshold_{i + 1}": np.zeros_like(mean[i]) + self.thresholds[i] for i in range(n_r)}

@@ -11,6 +11,7 @@ import yaml
 from fddbench.blocks.functions import atan2, cos, sin
 from fddbench.blocks.layout import Rows
 from fddbench.blocks.linear import affine, column, product
+from fddbench.systems import AffineLpv
 
 __all__ = ["SCHEDULING", "LateralLpv", "derivatives", "lateral_lpv"]
 
@@ -19,36 +20,22 @@ SCHEDULING = ("mass_kg", "x_cg_ratio", "altitude_ft", "v_cas_kt")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class LateralLpv:
+class LateralLpv(AffineLpv):
     """``xdot = A(rho) x + B(rho) u`` with x = [phi rad, V_y m/s, p rad/s, r rad/s] and u in degrees.
+
+    The tables are A, (5, 4, 4, 1), and B, (5, 4, 13, 1), of the appendix of the yaw-rate paper; its box is ``|rho| <= 1``.
 
     Attributes
     ----------
-    A, B : (5, 4, 4, 1) and (5, 4, 13, 1) arrays
-        Affine tables, constant part first (appendix of the yaw-rate paper).
-    trim, scale : (4, 1) arrays
-        ``rho = (value - trim) / scale`` of the parameters in `SCHEDULING`; the published box is ``|rho| <= 1``.
     surfaces : tuple of str
         Names of the 13 surfaces; positive rudder gives Y > 0 and N < 0, odd spoilers roll left.
     """
 
-    A: np.ndarray
-    B: np.ndarray
-    trim: np.ndarray
-    scale: np.ndarray
     surfaces: tuple[str, ...]
-
-    def rho(self, mass_kg: Rows, x_cg_ratio: Rows, altitude_ft: Rows, v_cas_kt: Rows) -> Rows:
-        """Scheduling parameters [-], (4, n_cases); deliberately not clipped to the box."""
-        return (np.stack([mass_kg, x_cg_ratio, altitude_ft, v_cas_kt]) - self.trim) / self.scale
-
-    def matrices(self, rho: Rows) -> tuple[Rows, Rows]:
-        """``A(rho)``, (4, 4, n_cases), and ``B(rho)``, (4, 13, n_cases)."""
-        return affine(self.A, rho), affine(self.B, rho)
 
     def trim_speeds_m_s(self, rho: Rows, v_tas_m_s: Rows) -> tuple[Rows, Rows]:
         """Kinematic speeds ``U0 = V cos alpha0`` and ``W0 = V sin alpha0`` [m/s], with tan alpha0 = A(phi, r)."""
-        alpha_rad = atan2(affine(self.A[:, :1, 3:], rho)[0, 0], np.ones_like(v_tas_m_s))
+        alpha_rad = atan2(affine(self.tables["A"][:, :1, 3:], rho)[0, 0], np.ones_like(v_tas_m_s))
         return v_tas_m_s * cos(alpha_rad), v_tas_m_s * sin(alpha_rad)
 
 
@@ -82,8 +69,8 @@ def lateral_lpv() -> LateralLpv:
     text = (Path(__file__).parent / "data" / "addsafe_lateral.yaml").read_text(encoding="utf-8")
     data: dict[str, Any] = yaml.safe_load(text)
     return LateralLpv(
-        A=column(data["A"]),
-        B=column(data["B"]),
+        tables={"A": column(data["A"]), "B": column(data["B"])},
+        names=SCHEDULING,
         trim=column([data["trim"][name] for name in SCHEDULING]),
         scale=column([data["scale"][name] for name in SCHEDULING]),
         surfaces=tuple(data["surfaces"]),

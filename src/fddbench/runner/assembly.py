@@ -107,7 +107,7 @@ class Assembly:
         """Constants and states of cases, a pure function of campaign, seed and case number."""
         scenario, run = self.plan.locate(cases)
         parameters = self.plan.parameters(cases)
-        outside = self._outside(parameters)
+        outside = self._outside(parameters, len(cases))
         streams = np.array([planned.stream for planned in self.plan.scenarios], dtype=np.int64)[scenario]
         n_cases, loop = len(cases), self.loop
         prepared = loop.prepare(
@@ -131,9 +131,9 @@ class Assembly:
             infeasible_reason=tuple(a or b for a, b in zip(outside, prepared.infeasible_reason, strict=True)),
         )
 
-    def _outside(self, parameters: Mapping[str, Floats]) -> list[str]:
+    def _outside(self, parameters: Mapping[str, Floats], n_cases: int) -> list[str]:
         """Why a case cannot be flown: a normal distribution has drawn a value that the benchmark does not have."""
-        reasons = [""] * len(next(iter(parameters.values()), ()))
+        reasons = [""] * n_cases
         for limit in self.plan.plant.parameters:
             drawn = parameters[limit.name]
             for i in np.flatnonzero((drawn < limit.low) | (drawn > limit.high)).tolist():

@@ -6,9 +6,10 @@ from scipy.linalg import expm
 
 from fddbench.benchmarks.jet_engine.manoeuvres import DURATIONS_S
 from fddbench.benchmarks.jet_engine.plant import DELTA_79, closed
-from fddbench.blocks.philox import PER_DRAW
-from fddbench.blocks.program import trace
+from fddbench.blocks.block import program
 from fddbench.errors import FddbenchError
+from fddbench.interfaces.benchmark import default_choices
+from fddbench.interfaces.site import limit_s
 
 
 def test_nothing_happens_to_a_healthy_engine_at_rest(bench):
@@ -19,7 +20,8 @@ def test_nothing_happens_to_a_healthy_engine_at_rest(bench):
 
 def test_a_step_fault_gives_the_answer_of_the_continuous_system(bench):
     fault = bench.fault("jam", sites=("f2",), onset_s=1.0, amplitude=1.0)
-    found = bench.fly(bench.loop("equation_79", sample_s=0.01), 1, 6.0, faults=[fault])["y"][:, :, 0]
+    loop = bench.loop("equation_79", sample_s=0.01, faults=[fault])
+    found = bench.fly(loop, 1, 6.0, faults=[fault])["y"][:, :, 0]
     A, B, C, D = (m[:, :, 0] for m in closed(DELTA_79[:, :, np.newaxis]))
     b, d = B[:, 1], D[:, 1]
     for t in (0.0, 0.5, 5.0):
@@ -59,23 +61,60 @@ def test_a_sample_that_does_not_divide_the_hold_is_refused(bench):
         bench.loop(sample_s=0.03)
 
 
+def test_substeps_are_refused(bench):
+    with pytest.raises(FddbenchError, match="stepped exactly for its discretisation: remove substeps = 2"):
+        bench.loop(substeps=2)
+
+
 def test_faults_of_size_zero_are_none_and_others_overlap(bench):
     size = bench.fault("jam", sites=("f1",), onset_s=2.0, amplitude=0.0)
-    healthy, zero = (bench.fly(bench.loop(), 3, 5.0, faults=f, disturbance_scale_ratio=1.0) for f in ((), [size]))
+    loop = bench.loop(faults=[size])
+    healthy, zero = (bench.fly(loop, 3, 5.0, faults=f, disturbance_scale_ratio=1.0) for f in ((), [size]))
     np.testing.assert_array_equal(healthy["y"], zero["y"])
+    assert bench.fly(bench.loop(), 3, 5.0, disturbance_scale_ratio=1.0)["y"].tobytes() == healthy["y"].tobytes()
+    jam = bench.fault("jam", sites=("f1",), onset_s=2.0, amplitude=1.0)
     ramp = bench.fault("runaway", sites=("f3",), onset_s=3.0, rate_per_s=0.2)
-    both = bench.fly(bench.loop(), 1, 5.0, faults=[bench.fault("jam", sites=("f1",), onset_s=2.0, amplitude=1.0), ramp])
+    both = bench.fly(bench.loop(faults=[jam, ramp]), 1, 5.0, faults=[jam, ramp])
     assert both["f_true_1"][[39, 40, 100], 0].tolist() == [0.0, 1.0, 1.0]
     assert both["f_true_3"][[59, 60, 100], 0] == pytest.approx([0.0, 0.0, 0.4])
     assert not both["f_true_2"].any()
 
 
 def test_the_step_can_be_traced(bench):
-    loop = bench.loop()
+    noise = bench.fault("noise", sites=("f2",), onset_s=0.0, variance=1.0)
+    loop = bench.loop(faults=[noise, bench.fault("jam", sites=("f1",), onset_s=2.0, amplitude=1.0)])
+    traced = program(loop, shown=lambda seen: {**vars(seen.measured), **seen.truth, "gone": seen.departed})
+    assert len(traced.outputs["state"]) == loop.states.size
+    assert set(traced.outputs) == {"state", "y", "u", *loop.truth, "gone"}
 
-    def step(state, constants, normals, sample):
-        after, measured, truth, gone = loop.step(state, constants, normals, sample)
-        return {"state": after, "y": measured.y, "u": measured.u, **truth, "gone": gone}
 
-    program = trace(step, state=loop.states.size, constants=loop.constants.size, normals=PER_DRAW * 4, sample=0)
-    assert len(program.outputs["state"]) == loop.states.size
+def test_random_numbers_have_their_frozen_addresses(bench):
+    """Disturbance i is number i of consumer 10, fault site i number i of 64 + slot, Δ the consumers 4 to 9."""
+    noise = bench.fault("noise", sites=("f1", "f2", "f3"), onset_s=0.0, variance=1.0, correlation="independent")
+    loop = bench.loop("equation_79", faults=[noise])
+    assert loop.draws.streams == ((10, "flight"), (64, "scenario"))
+    assert loop.before.streams == tuple((consumer, "flight") for consumer in range(4, 10))
+    constants, state = bench.start(loop, 9, faults=[noise], disturbance_scale_ratio=1.0)
+    drawn = np.full((8, 9), 0.5)
+    drawn[np.arange(8), np.arange(8)] = -0.5  # case i has row i reversed; case 8 is the reference
+    _, seen = loop.step(state, constants, loop.draws.unpack(drawn), 0.0)
+    readers = {name: np.flatnonzero(value != value[8]).tolist() for name, value in seen.truth.items()}
+    assert readers == {
+        "d_true_1": [0],
+        "d_true_2": [1],
+        "d_true_3": [2],
+        "f_true_1": [4],
+        "f_true_2": [5],
+        "f_true_3": [6],
+    }
+
+
+def test_sites_choices_and_limits(bench):
+    sites = bench.benchmark.sites
+    assert [(site.name, site.kind, site.signal, site.row) for site in sites] == [
+        (f"f{row + 1}", "component", "f", row) for row in range(3)
+    ]
+    assert {(site.unit_name, site.admissible, site.stops) for site in sites} == {("", 1.0, (-np.inf, np.inf))}
+    assert [limit_s(sites[:n]) for n in (1, 2, 3)] == [5.0, 5.0, 5.0]
+    assert tuple(bench.benchmark.choices["plant"].options) == ("norm_bounded", "boundary", "structured", "equation_79")
+    assert bench.benchmark.plant(default_choices(bench.benchmark)) is bench.benchmark

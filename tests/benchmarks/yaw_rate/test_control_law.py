@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from scipy.linalg import expm, solve_continuous_are
 
 from fddbench.benchmarks.yaw_rate import control_law as law
+from fddbench.blocks.layout import Nothing
 from fddbench.flight.atmosphere import true_airspeed_m_s
 from fddbench.flight.lateral_lpv import lateral_lpv
 
@@ -79,7 +80,9 @@ def test_the_sampled_loop_is_stable_at_10_and_20_ms():
 def orders(*, integral=0.0, command=0.0, **measured):
     values = {"phi_deg": 0.0, "beta_deg": 0.0, "p_deg_s": 0.0, "r_voted_deg_s": 0.0, "v_tas_m_s": 199.28, **measured}
     measured = SimpleNamespace(**{name: np.array([float(value)]) for name, value in values.items()})
-    return law.LateralLaw(sample_s=0.01).step(np.array([float(integral)]), measured, np.array([float(command)]))
+    x = law.LawState(integral_rad_s=np.array([float(integral)]))
+    after, u = law.LateralLaw(sample_s=0.01).step(x, Nothing(), Nothing(), measured, np.array([float(command)]))
+    return after.integral_rad_s, u
 
 
 small = st.floats(-1.0, 1.0)

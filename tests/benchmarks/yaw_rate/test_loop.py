@@ -1,13 +1,21 @@
 """The closed loop as a whole: bits, sub-steps, sensors, faults, gusts and departures."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from fddbench import kinds
+from fddbench.benchmarks.yaw_rate.plants.lateral_lpv import LateralLpvPlant
+from fddbench.blocks.layout import ROW, Layout, Row, record
 from fddbench.errors import UnknownNameError
 from fddbench.faults.bias import Bias
 from fddbench.faults.jam import Jam
 from fddbench.faults.nrz import Nrz
 from fddbench.faults.runaway import Runaway
+from fddbench.interfaces import Site
+from fddbench.interfaces.benchmark import default_choices
+from fddbench.interfaces.site import limit_s
 
 PAIR = {"sites": ("r1", "r2"), "onset_s": 0.5}
 FAULTS = [
@@ -27,13 +35,12 @@ MIXED = {
 
 
 def drawn(loop, n_cases, n, seed=0):
-    rows = 4 * (len(loop.consumers) + len(loop.fault_consumers))
-    return np.random.default_rng(seed).normal(size=(n, rows, n_cases))
+    return np.random.default_rng(seed).normal(size=(n, loop.draws.size, n_cases))
 
 
 @pytest.mark.parametrize("wind", ["none", "light"])
 def test_a_case_alone_has_the_bits_it_has_in_company(bench, wind):
-    loop = bench.loop(sensors="white", wind=wind)
+    loop = bench.loop(sensors="white", wind=wind, faults=FAULTS)
     draws = drawn(loop, 5, 201)
     normals = np.random.default_rng(9).normal(size=(4, 5))
     detector = bench.sliding_mode(loop)
@@ -48,11 +55,12 @@ def test_a_case_alone_has_the_bits_it_has_in_company(bench, wind):
 def test_halving_the_integration_step_changes_no_declaration(bench):
     found = []
     for substeps in (1, 2):
-        loop = bench.loop(sensors="white", substeps=substeps)
+        loop = bench.loop(sensors="white", substeps=substeps, faults=FAULTS)
         found.append(bench.fly(loop, 5, 8.0, draws=drawn(loop, 5, 801), detector=bench.sliding_mode(loop), **MIXED))
     one, two = found
     assert one["declared"].any(axis=(0, 1)).tolist() == [True, True, True, True, False]
     assert np.array_equal(one["declared"], two["declared"])
+    assert all(name.startswith("plant.") for name in loop.states.names[:6])
     scale = np.abs(one["state"][:, :6]).max(axis=(0, 2))
     assert (np.abs(one["state"][:, :6] - two["state"][:, :6]).max(axis=(0, 2)) < 1e-6 * scale).all()
 
@@ -81,26 +89,37 @@ def test_ideal_sensors_are_the_truth(bench):
 
 
 def test_a_fault_of_size_zero_is_the_healthy_flight_bit_for_bit(bench):
-    loop = bench.loop(sensors="white")
-    draws = drawn(loop, 4, 301)
     zeros = [
         [Jam(kind="jam", **PAIR, amplitude_deg_s=0.0)],
         [Runaway(kind="runaway", **PAIR, rate_deg_s2=0.0)],
         [Nrz(kind="nrz", **PAIR, amplitude_deg_s=0.0)],
         [Bias(kind="bias", **PAIR, amplitude_percent=0.0)],
     ]
-    detector = bench.sliding_mode(loop)
+    loop = bench.loop(sensors="white", faults=zeros)
+    draws, detector = drawn(loop, 4, 301), bench.sliding_mode(loop)
     healthy, same = (
         bench.fly(loop, 4, 3.0, draws=draws, faults=faults, detector=detector, manoeuvres="turn_coordination_1")
         for faults in (None, zeros)
     )
     for name in healthy:
-        if name != "state":  # the fault step remembers the value before its onset
+        if name != "state":  # a fault remembers the bit that stands
             assert healthy[name].tobytes() == same[name].tobytes(), name
+    flown = [row for row, name in enumerate(loop.states.names) if "faults" not in name]
+    assert healthy["state"][:, flown].tobytes() == same["state"][:, flown].tobytes()
+
+
+def test_what_other_scenarios_break_changes_no_bit_of_a_healthy_flight(bench):
+    """A loop that knows no fault, and one that knows four kinds and a frozen sensor."""
+    frozen = [Jam(kind="jam", **PAIR, mode="replace", freeze=True)]
+    alone, among = bench.loop(sensors="white"), bench.loop(sensors="white", faults=[*FAULTS, frozen])
+    draws = drawn(among, 2, 101)
+    one = bench.fly(alone, 2, 1.0, draws=draws[:, : alone.draws.size], manoeuvres="roll_doublet")
+    other = bench.fly(among, 2, 1.0, draws=draws, manoeuvres="roll_doublet")
+    assert all(one[name].tobytes() == other[name].tobytes() for name in one if name != "state")
 
 
 def test_a_fault_changes_nothing_before_its_onset(bench):
-    loop = bench.loop(sensors="white")
+    loop = bench.loop(sensors="white", faults=FAULTS)
     draws = drawn(loop, 4, 101)
     faulty = bench.fly(loop, 4, 1.0, draws=draws, faults=FAULTS[:4])
     healthy = bench.fly(loop, 4, 1.0, draws=draws)
@@ -110,7 +129,7 @@ def test_a_fault_changes_nothing_before_its_onset(bench):
 
 
 def test_the_voted_rate_drives_the_law_so_a_common_fault_moves_the_aircraft_and_a_single_one_does_not(bench):
-    now = bench.fly(bench.loop(), 2, 3.0, faults=[FAULTS[0], FAULTS[3]])
+    now = bench.fly(bench.loop(faults=FAULTS), 2, 3.0, faults=[FAULTS[0], FAULTS[3]])
     assert np.abs(now["r_true_deg_s"][:, 0]).max() > 0.1
     assert not now["r_true_deg_s"][:, 1].any()
 
@@ -118,29 +137,53 @@ def test_the_voted_rate_drives_the_law_so_a_common_fault_moves_the_aircraft_and_
 def test_sideslip_is_relative_to_the_air(bench):
     """In a gust at rest the first measured sideslip is that of the gust alone."""
     loop = bench.loop(wind="moderate")
-    begun = bench.start(loop, 1, normals=np.array([[1.0], [-0.5], [0.0], [0.0]]))
-    draws = np.zeros((4 * (len(loop.consumers) + 1), 1))
-    _, measured, truth, _ = loop.step(begun.state, begun.constants, draws, 0.0)
-    assert truth["gust_m_s"][0] != 0.0
-    assert measured.beta_deg[0] == pytest.approx(-np.rad2deg(np.arcsin(truth["gust_m_s"][0] / 199.28)), rel=1e-4)
+    constants, state = bench.start(loop, 1, normals=np.array([[1.0], [-0.5], [0.0], [0.0]]))
+    _, seen = loop.step(state, constants, loop.draws.unpack(np.zeros((loop.draws.size, 1))), 0.0)
+    gust_m_s = seen.truth["gust_m_s"][0]
+    assert gust_m_s != 0.0
+    assert seen.measured.beta_deg[0] == pytest.approx(-np.rad2deg(np.arcsin(gust_m_s / 199.28)), rel=1e-4)
 
 
-def test_every_random_number_has_one_reader(bench):
+FLIGHT, SCENARIO = "flight", "scenario"
+
+
+def test_every_random_number_has_one_reader_and_its_frozen_address(bench):
     """Rows 0-5 are sensor noise, 8-9 the gust, 12-15 the fault slot; no row moves what another one feeds."""
-    loop = bench.loop(sensors="white", wind="light")
-    begun = bench.start(loop, 17, faults=[[Nrz(kind="nrz", sites=("r1",), onset_s=0.0, amplitude_deg_s=2.0)]] * 17)
+    nrz = [Nrz(kind="nrz", sites=("r1",), onset_s=0.0, amplitude_deg_s=2.0)]
+    loop = bench.loop(sensors="white", wind="light", faults=[nrz])
+    assert loop.draws.streams == ((0, FLIGHT), (1, FLIGHT), (2, FLIGHT), (64, SCENARIO))
+    assert loop.before.streams == ((3, FLIGHT),)
+    constants, state = bench.start(loop, 17, faults=[nrz] * 17)
     draws = np.full((16, 17), 0.5)
     draws[np.arange(16), np.arange(16)] = -0.5  # case i has row i reversed; case 16 is the reference
-    after, measured, *_ = loop.step(begun.state, begun.constants, draws, 0.0)
+    after, seen = loop.step(state, constants, loop.draws.unpack(draws), 0.0)
+    measured = seen.measured
     seen = {
         "r1": measured.r_deg_s[0],
         "r2": measured.r_deg_s[1],
         "r3": measured.r_deg_s[2],
-        "others": measured.beta_deg + 2.0 * measured.p_deg_s + 4.0 * measured.phi_deg,
-        "gust": loop.states.unpack(after).gust.sum(axis=0),
+        "beta": measured.beta_deg,
+        "p": measured.p_deg_s,
+        "phi": measured.phi_deg,
+        "gust": after.gust.first + after.gust.second,
     }
     readers = {name: np.flatnonzero(value != value[16]).tolist() for name, value in seen.items()}
-    assert readers == {"r1": [0, 12], "r2": [1], "r3": [2], "others": [3, 4, 5], "gust": [8, 9]}
+    assert readers == {"r1": [0, 12], "r2": [1], "r3": [2], "beta": [3], "p": [4], "phi": [5], "gust": [8, 9]}
+
+
+def test_each_site_of_an_independent_fault_has_the_number_of_its_position(bench):
+    """Slot j is consumer 64 + j, site i its number i; what is the same on all sites is number 0."""
+    own = Nrz(kind="nrz", sites=("r3", "r1", "r2"), onset_s=0.0, amplitude_deg_s=2.0, correlation="independent")
+    same = Nrz(kind="nrz", sites=("r2", "r3"), onset_s=0.0, amplitude_deg_s=2.0)
+    for slot, fault, expected in ((0, own, [[8], [9], [10]]), (1, same, [[], [8], [8]])):
+        faults = [Bias(kind="bias", **PAIR, amplitude_deg_s=0.0)] * slot + [fault]
+        loop = bench.loop(faults=[faults])
+        assert loop.draws.streams == ((0, FLIGHT), (1, FLIGHT), (64 + slot, SCENARIO))
+        constants, state = bench.start(loop, 13, faults=[faults] * 13)
+        draws = np.full((12, 13), 0.5)
+        draws[np.arange(12), np.arange(12)] = -0.5
+        _, seen = loop.step(state, constants, loop.draws.unpack(draws), 0.0)
+        assert [np.flatnonzero(row != row[12]).tolist() for row in seen.measured.r_deg_s] == expected
 
 
 def test_gust_scale_zero_is_still_air_and_the_gust_has_its_sigma(bench):
@@ -158,13 +201,12 @@ def test_gust_scale_zero_is_still_air_and_the_gust_has_its_sigma(bench):
 
 def test_a_flight_has_departed_beyond_90_deg_of_bank_and_when_it_is_not_a_number(bench):
     loop = bench.loop()
-    begun = bench.start(loop, 4)
-    state = begun.state.copy()
-    state[0] = np.deg2rad([89.9, -90.1, 90.1, 0.0])
-    state[0, 3] = np.nan
+    constants, state = bench.start(loop, 4)
+    phi_rad = np.deg2rad([89.9, -90.1, 90.1, np.nan])
+    state = replace(state, plant=replace(state.plant, phi_rad=phi_rad))
     with np.errstate(all="ignore"):
-        *_, departed = loop.step(state, begun.constants, np.zeros((12, 4)), 0.0)
-    assert departed.tolist() == [False, True, True, True]
+        _, seen = loop.step(state, constants, loop.draws.unpack(np.zeros((loop.draws.size, 4))), 0.0)
+    assert seen.departed.tolist() == [False, True, True, True]
 
 
 def test_law_and_detectors_get_measured_parameters_and_the_plant_keeps_the_true_ones(bench):
@@ -181,21 +223,120 @@ def test_law_and_detectors_get_measured_parameters_and_the_plant_keeps_the_true_
 
 def test_bus_names_what_a_step_measures(bench):
     loop = bench.loop(sensors="white")
-    begun = bench.start(loop, 3)
-    _, measured, truth, _ = loop.step(begun.state, begun.constants, np.zeros((12, 3)), 0.0)
-    assert set(vars(measured)) == set(loop.bus.signals)
+    constants, state = bench.start(loop, 3)
+    after, seen = loop.step(state, constants, loop.draws.unpack(np.zeros((loop.draws.size, 3))), 0.0)
+    assert set(vars(seen.measured)) == set(loop.bus.signals)
     for name, rows in loop.bus.signals.items():
-        assert np.shape(getattr(measured, name)) == ((rows, 3) if rows else (3,)), name
-    assert tuple(truth) == loop.truth
+        assert np.shape(getattr(seen.measured, name)) == ((rows, 3) if rows else (3,)), name
+    assert tuple(seen.truth) == loop.truth
+    loop.states.check(after, 3)
 
 
-def test_choices_that_do_not_exist_are_refused(bench):
-    with pytest.raises(UnknownNameError, match="no voter is called 'mean'"):
-        bench.loop(voter="mean")
+def test_calm_air_and_no_faults_leave_no_row_behind(bench):
+    loop, windy = bench.loop(), bench.loop(wind="light")
+    assert loop.states.size == 6 + 13 + 1
+    assert windy.states.size == loop.states.size + 2
+    assert not any("gust" in name or "faults" in name for name in (*loop.states.names, *loop.constants.names))
+    assert (loop.draws.size, windy.draws.size, loop.before.size) == (8, 12, 0)
+
+
+def test_choices_and_their_defaults(bench):
+    found = {key: tuple(choice.options) for key, choice in bench.benchmark.choices.items()}
+    assert found == {
+        "plant": ("lateral_lpv",),
+        "voter": ("median", "closest_two"),
+        "sensors": ("white", "ideal"),
+        "wind": ("none", "light", "moderate", "severe"),
+    }
+    chosen = default_choices(bench.benchmark)
+    assert all(chosen[key] is bench.benchmark.choices[key].options[names[0]] for key, names in found.items())
+    assert bench.benchmark.plant(chosen) is LateralLpvPlant
+
+
+@pytest.mark.parametrize(("family", "name"), [("voter", "mean"), ("plant", "nonsense"), ("wind", "storm")])
+def test_choices_that_do_not_exist_are_refused(bench, family, name):
+    choice = bench.benchmark.choices[family]
+    assert name not in choice.options
+    with pytest.raises(UnknownNameError, match=f"no {family} is called '{name}'"):
+        kinds.load(choice.family, name)
 
 
 def test_literature_limits_and_ranges(bench):
-    limits = [bench.benchmark.detection_time_limit_s(n) for n in (1, 2, 3)]
-    assert limits == [120.0, 0.36, 0.36]
-    units = bench.benchmark.fault_units
-    assert (units.unit, units.admissible, units.sensor_range) == ("deg/s", 40.0, 128.0)
+    sites = LateralLpvPlant.sites
+    assert [site.name for site in sites] == ["r1", "r2", "r3"]
+    assert [limit_s(sites[:n]) for n in (1, 2, 3)] == [120.0, 0.36, 0.36]
+    assert [limit_s([site]) for site in sites] == [120.0] * 3
+    for row, site in enumerate(sites):
+        assert (site.unit_name, site.admissible, site.stops) == ("deg/s", 40.0, (-128.0, 128.0))
+        assert (site.kind, site.signal, site.row) == ("sensor", "r_deg_s", row)
+
+
+class MoreSites(LateralLpvPlant):
+    """The same aircraft with five yaw-rate sensors, and two surfaces that may fail."""
+
+    sites = (
+        *(replace(LateralLpvPlant.sites[0], name=f"r{row + 1}", row=row) for row in range(5)),
+        Site(name="rudder", signal="surface_deg", row=0, kind="actuator", unit_name="deg", admissible=30.0),
+        Site(name="spoiler_8", signal="surface_deg", row=12, kind="actuator", unit_name="deg", admissible=35.0),
+    )
+
+
+def test_more_sensors_are_read_voted_and_have_noise_of_their_own(bench):
+    loop = bench.loop(plant=MoreSites, sensors="white")
+    assert loop.bus.redundant("r_deg_s") == ("r1", "r2", "r3", "r4", "r5")
+    assert loop.bus.sites_of("actuator") == ("rudder", "spoiler_8")
+    # the fourth and fifth sensor draw beside, so that the first three keep their numbers
+    assert loop.draws.streams == ((0, FLIGHT), (512, FLIGHT), (1, FLIGHT))
+    draws = drawn(loop, 2, 51)
+    now = bench.fly(loop, 2, 0.5, draws=draws)
+    numbers = draws[:, [0, 1, 2, 4, 5]]
+    np.testing.assert_allclose(now["r_deg_s"] - now["r_true_deg_s"][:, np.newaxis], 0.01 * numbers, atol=1e-15)
+    assert np.array_equal(now["r_voted_deg_s"], np.median(now["r_deg_s"], axis=1))
+
+
+def test_a_surface_that_is_stuck_moves_the_aircraft_and_is_seen_on_the_bus(bench):
+    jam = [
+        Jam.in_unit("deg")(kind="jam", sites=("rudder",), onset_s=0.5, mode="replace", hold_value_deg=3.0),
+        Jam.in_unit("deg")(kind="jam", sites=("spoiler_8",), onset_s=1.0, amplitude_percent=10.0),
+    ]
+    loop = bench.loop(plant=MoreSites, faults=[jam])
+    now = bench.fly(loop, 2, 3.0, faults=[jam, []])
+    surface = now["surface_deg"]
+    assert (surface[50:, 0, 0] == 3.0).all()
+    assert not surface[:50].any()
+    assert (surface[100, 12] == [3.5, 0.0]).all()
+    assert now["r_true_deg_s"][51, 0] != 0.0
+    assert np.abs(now["beta_true_deg"][-1, 0]) > 0.1
+    assert not surface[:, :, 1].any()
+    assert not now["r_true_deg_s"][:, 1].any()
+    # the sensors are healthy: they read the truth
+    assert np.array_equal(now["r_deg_s"][:, 0], now["r_true_deg_s"])
+
+
+@record
+class Voted:
+    """What was voted last [deg/s]."""
+
+    deg_s: Row
+
+
+class Sluggish:
+    """A voter with a memory: half of what it voted before."""
+
+    states = Layout(Voted(deg_s=ROW))
+
+    def start(self):
+        return Voted(deg_s=0.0)
+
+    def step(self, x, sensors):
+        voted = 0.5 * x.deg_s + 0.5 * np.median(sensors, axis=0)
+        return Voted(deg_s=voted), voted
+
+
+def test_a_voter_with_a_memory_flies(bench):
+    bias = [Bias(kind="bias", sites=("r1", "r2", "r3"), onset_s=0.0, amplitude_deg_s=1.0)]
+    loop = bench.loop(voter=Sluggish, faults=[bias])
+    assert loop.states.size == bench.loop(faults=[bias]).states.size + 1
+    now = bench.fly(loop, 1, 0.02, faults=[bias])
+    assert now["r_voted_deg_s"][0, 0] == 0.5
+    assert now["r_voted_deg_s"][1, 0] == pytest.approx(0.75, abs=0.01)

@@ -61,7 +61,7 @@ def test_yaw_angle_mode_turns_by_10_deg_and_back_at_every_speed(flown):
 
 
 def test_cruise_is_perfectly_still(flown):
-    for name in ("phi_true_deg", "beta_true_deg", "psi_deg", "y_m", "ratio"):
+    for name in ("phi_true_deg", "beta_true_deg", "psi_deg", "y_m", "residual"):
         assert not flown["cruise"][name].any()
 
 

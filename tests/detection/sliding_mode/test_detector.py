@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
+from fddbench.blocks.layout import Nothing
 from fddbench.detection.sliding_mode import SlidingMode
 from fddbench.errors import DesignError
-from fddbench.interfaces import Bus
+from fddbench.interfaces import Bus, Site
 from fddbench.voting.median import Median
 
 SIGNALS = {
@@ -19,24 +20,28 @@ SIGNALS = {
 }
 
 
+SITES = tuple(Site(name=f"r{i + 1}", signal="r_deg_s", row=i, unit_name="deg/s", admissible=40.0) for i in range(3))
+
+
 def detector(gains, sample_s=0.01):
-    return SlidingMode.from_design(gains, Bus(sample_s=sample_s, sites=("r1", "r2", "r3"), signals=SIGNALS))
+    return SlidingMode.from_design(gains, Bus(sample_s=sample_s, sites=SITES, signals=SIGNALS))
 
 
 def fly(scheme, r, **more):
-    """Declared sites (n_time, 3, n_cases) and ratio (n_time, n_cases) of an aircraft at rest with sensors r."""
+    """Declared sites (n_time, 3, n_cases) and residual (n_time, n_cases) of an aircraft at rest with sensors r."""
     n_cases = r.shape[2]
     still = {name: np.zeros((rows, n_cases) if rows else n_cases) for name, rows in SIGNALS.items()}
     centre = {"v_tas_m_s": 199.28, "mass_kg": 200e3, "x_cg_ratio": 0.3, "altitude_ft": 20e3, "v_cas_kt": 290.0}
     still |= {name: np.full(n_cases, value) for name, value in centre.items()}
-    state, declared, ratio = scheme.start(n_cases), [], []
+    nothing = Nothing()
+    state, declared, residual = scheme.states.spread(scheme.start(nothing), n_cases), [], []
     for k, sample in enumerate(r):
         measured = still | {"r_deg_s": sample, "r_voted_deg_s": Median().vote(sample)}
         measured |= {name: values[k] for name, values in more.items()}
-        state, verdict = scheme.step(state, SimpleNamespace(**measured))
+        state, verdict = scheme.step(state, nothing, nothing, SimpleNamespace(**measured))
         declared.append(verdict.declared)
-        ratio.append(verdict.ratio)
-    return np.array(declared), np.array(ratio)
+        residual.append(verdict.residual)
+    return np.array(declared), np.array(residual)
 
 
 def step_fault(sites, size=2.0, first=200, n=420):
@@ -61,19 +66,19 @@ def test_a_common_mode_pair_is_declared_after_a_tenth_of_a_second(design, name, 
 
 @pytest.mark.parametrize("site", [0, 1, 2])
 def test_one_sensor_is_declared_after_a_second(design, site):
-    declared, ratio = fly(detector(design()), step_fault((site,)))
+    declared, residual = fly(detector(design()), step_fault((site,)))
     assert declarations(declared) == {1: 300}
     assert np.flatnonzero(declared[-1, :, 0]).tolist() == [site]
-    assert ratio.max() < 1e-6  # the vote hides it from the observer
+    assert residual.max() < 1e-6  # the vote hides it from the observer
 
 
 def test_without_its_observer_the_scheme_never_declares_two(design):
     rng = np.random.default_rng(0)
     pair = np.repeat(step_fault((0, 1)), 6, axis=2)
     pair[:, :2] += 50.0 * rng.normal(size=(420, 1, 6)) * (np.arange(420)[:, None, None] >= 200)
-    declared, ratio = fly(detector(design("off")), pair)
+    declared, residual = fly(detector(design("off")), pair)
     assert declared.sum(axis=1).max() == 1.0
-    assert not ratio.any()
+    assert not residual.any()
     declared, _ = fly(detector(design("off")), step_fault((0, 1)))
     assert declared[-1, :, 0].tolist() == [0.0, 0.0, 1.0]  # the healthy one
 
@@ -87,13 +92,13 @@ def test_confirmation_times_are_times(design, sample_s):
 
 def test_reconstruction_is_filtered_twice_and_settles_at_the_dc_gain(design):
     """Inputs and output each pass 0.05 s: the step response of two equal lags, times 0.9825, in deg/s."""
-    _, ratio = fly(detector(design()), step_fault((0, 1), first=0, n=300))
+    _, residual = fly(detector(design()), step_fault((0, 1), first=0, n=300))
     time = np.arange(1, 301) * 0.01
     two_lags = 1 - (1 + time / 0.05) * np.exp(-time / 0.05)
-    expected, found = 2.0 * 0.98253 * two_lags, ratio[:, 0] * 0.25
+    expected, found = 2.0 * 0.98253 * two_lags, residual[:, 0] * 0.25
     assert (found < expected + 1e-3).all()
     assert (found[2:] > expected[:-2] - 0.01).all()  # filter and injection cost one to two samples more
-    assert ratio[-1, 0] * 0.25 == pytest.approx(2.0 * 0.98253, abs=1e-3)
+    assert residual[-1, 0] * 0.25 == pytest.approx(2.0 * 0.98253, abs=1e-3)
 
 
 def test_one_may_become_two_but_never_less(design):
@@ -149,7 +154,7 @@ def test_what_holds_for_any_signals(design, seed):
     """Sites latched, as many as declared, never fewer; causal; no case sees its company."""
     scheme = detector(design(confirm_one_s=0.3))
     r, more = random_signals(seed)
-    declared, ratio = fly(scheme, r, **more)
+    declared, residual = fly(scheme, r, **more)
     n = declared.sum(axis=1)
     assert set(np.unique(declared)) <= {0.0, 1.0}
     assert n.max() == 2.0
@@ -157,13 +162,13 @@ def test_what_holds_for_any_signals(design, seed):
     changed = (np.diff(declared, axis=0) != 0.0).any(axis=1)
     assert np.array_equal(changed, np.diff(n, axis=0) > 0.0)
     cut = 150
-    early, early_ratio = fly(scheme, r[:cut], **{name: x[:cut] for name, x in more.items()})
+    early, early_residual = fly(scheme, r[:cut], **{name: x[:cut] for name, x in more.items()})
     assert np.array_equal(early, declared[:cut])
-    assert early_ratio.tobytes() == np.ascontiguousarray(ratio[:cut]).tobytes()
+    assert early_residual.tobytes() == np.ascontiguousarray(residual[:cut]).tobytes()
     for i in (0, 3):
         alone, own = fly(scheme, r[:, :, [i]], **{name: x[..., [i]] for name, x in more.items()})
         assert np.array_equal(alone, declared[:, :, [i]])
-        assert own.tobytes() == np.ascontiguousarray(ratio[:, [i]]).tobytes()
+        assert own.tobytes() == np.ascontiguousarray(residual[:, [i]]).tobytes()
 
 
 def test_renaming_the_sensors_renames_the_declared_sites(design):
@@ -176,7 +181,7 @@ def test_renaming_the_sensors_renames_the_declared_sites(design):
 
 def test_what_it_refuses(design):
     with pytest.raises(DesignError, match="needs the signals .'phi_deg'"):
-        SlidingMode.from_design(design(), Bus(sample_s=0.01, sites=("a",), signals={"r_deg_s": 3}))
+        SlidingMode.from_design(design(), Bus(sample_s=0.01, sites=SITES[:1], signals={"r_deg_s": 3}))
     with pytest.raises(DesignError, match="energy_count = 40 can never be reached in a window of 30 samples"):
         detector(design(energy_count=40))
     for wrong in ({"delta": 0.0}, {"energy_window_samples": 53}, {"error_pole_1_s": (-1, -1, -1, 0.1)}, {"w": (1,)}):

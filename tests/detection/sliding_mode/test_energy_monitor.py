@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from fddbench.blocks.layout import Nothing
 from fddbench.detection.sliding_mode.energy_monitor import EnergyMonitor
 
 signals = st.lists(
@@ -19,11 +20,12 @@ def monitor(window=30, count=8, sample_s=0.01):
 
 
 def run(detector, r):
-    state, tripped, energies = detector.states.zeros(r.shape[2]), [], []
+    nothing = Nothing()
+    state, tripped, energies = detector.states.spread(detector.start(nothing), r.shape[2]), [], []
     for sample in r:
-        state, trip, energy = detector.step(state, sample)
-        tripped.append(trip)
-        energies.append(energy)
+        state, now = detector.step(state, nothing, nothing, sample)
+        tripped.append(now.tripped)
+        energies.append(now.energy)
     return np.array(tripped), np.array(energies)
 
 

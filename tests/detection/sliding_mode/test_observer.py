@@ -1,11 +1,14 @@
 """The sliding-mode observer: the printed gains, the injection it solves for, its DC gain and its stability."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
+from fddbench.blocks.layout import Nothing
 from fddbench.detection.sliding_mode.observer import Observer
 from fddbench.flight.lateral_lpv import lateral_lpv
 
@@ -30,7 +33,7 @@ def with_filter(table, first):
 def test_literature_printed_linear_gain_follows_from_l(design, j):
     """``Gl_top = A12 - A11 L + L A22s`` and ``Gl_low = A22 - A21 L - A22s``, table by table, to 8e-5."""
     gains = design()
-    A = with_filter(lateral_lpv().A[j, :, :, 0], j == 0)
+    A = with_filter(lateral_lpv().tables["A"][j, :, :, 0], j == 0)
     A11, A12, A21, A22 = A[R, R], A[R, REST], A[REST, R], A[np.ix_(REST, REST)]
     L, A22s = np.array(gains.l_row), np.diag(ERROR_POLES) * (j == 0)
     expected = np.zeros((5, 4))
@@ -58,6 +61,14 @@ def test_literature_lyapunov_matrix_and_row_of_the_nonlinear_gain(design):
     np.testing.assert_allclose(published.p_o[:, 0], [0.1613, 0.1563, 0.1515, 0.1471], atol=5e-5)
     np.testing.assert_allclose(published.gn_r, [-0.071, -0.0554, 0.0001, 0.0], atol=5e-5)
     np.testing.assert_allclose(Observer(design("equation_19"), 0.01).gn_r, -np.array(design().l_row), rtol=1e-15)
+
+
+def begun(observer, n_cases=1):
+    return observer.states.spread(observer.start(Nothing()), n_cases)
+
+
+def stepped(observer, state, *inputs):
+    return observer.step(state, Nothing(), Nothing(), *inputs)
 
 
 def residual(observer, predicted):
@@ -112,7 +123,7 @@ class ByHand:
     def step(self, y, r, u, rho):
         model, g, T = lateral_lpv(), self.g, self.T
         weights = np.array([1.0, *rho])
-        A = with_filter(np.tensordot(weights, model.A[..., 0], 1), True)
+        A = with_filter(np.tensordot(weights, model.tables["A"][..., 0], 1), True)
         A[4, 3], A[4, 4] = g.filter_pole_1_s, -g.filter_pole_1_s
         B = np.vstack([np.tensordot(weights, model.B[..., 0], 1), np.zeros(13)])
         Gl = np.tensordot(weights, np.array(g.linear_gain), 1)
@@ -138,11 +149,11 @@ def test_agrees_with_the_observer_written_by_hand(design, convention, sample_s):
     gains = design(gn_convention=convention, newton_steps=5)
     observer, hand = Observer(gains, sample_s), ByHand(gains, sample_s)
     rng = np.random.default_rng(5)
-    rho, state = rng.uniform(-1, 1, 4), observer.start(1)
+    rho, state = rng.uniform(-1, 1, 4), begun(observer)
     y, r, u = np.zeros(3), 0.0, np.zeros(13)
     for _ in range(150):
         y, r, u = y + rng.normal(size=3) * [0.003, 0.3, 0.01], r + 0.005 * rng.normal(), u + 0.2 * rng.normal(size=13)
-        state, found = observer.step(state, y[:, None], np.array([r]), u[:, None], rho[:, None])
+        state, found = stepped(observer, state, y[:, None], np.array([r]), u[:, None], rho[:, None])
         assert found[0] == pytest.approx(hand.step(y, r, u, rho), rel=1e-9, abs=1e-12)
 
 
@@ -151,9 +162,9 @@ def test_dc_gain_is_the_same_at_10_20_and_40_ms(design, convention):
     """A constant 1 deg/s on the voted rate of an aircraft at rest: ``kappa / (kappa + 3.4)``."""
     for sample_s in (0.01, 0.02, 0.04):
         observer = Observer(design(gn_convention=convention), sample_s)
-        state, rest = observer.start(1), (np.zeros((3, 1)), np.array([1 / DEG]), np.zeros((13, 1)), np.zeros((4, 1)))
+        state, rest = begun(observer), (np.zeros((3, 1)), np.array([1 / DEG]), np.zeros((13, 1)), np.zeros((4, 1)))
         for _ in range(round(3.0 / sample_s)):
-            state, raw = observer.step(state, *rest)
+            state, raw = stepped(observer, state, *rest)
         assert raw[0] * DEG == pytest.approx(KAPPA / (KAPPA + 3.4), abs=2e-5)
         assert raw[0] * DEG == pytest.approx(0.9825, abs=1e-4)
 
@@ -166,10 +177,9 @@ def test_error_dynamics_are_stable_over_the_published_box(design, convention, sa
     n, tiny = observer.states.size, 1e-9
     corners = np.array(np.meshgrid(*[(-1.0, 1.0)] * 4)).reshape(4, 16)
     for rho in corners.T:
-        after, _ = observer.step(
-            tiny * np.eye(n), np.zeros((3, n)), np.zeros(n), np.zeros((13, n)), np.repeat(rho[:, None], n, axis=1)
-        )
-        poles = np.sort(np.abs(np.linalg.eigvals(after / tiny)))
+        rest = (np.zeros((3, n)), np.zeros(n), np.zeros((13, n)), np.repeat(rho[:, None], n, axis=1))
+        after, _ = stepped(observer, observer.states.unpack(tiny * np.eye(n)), *rest)
+        poles = np.sort(np.abs(np.linalg.eigvals(observer.states.pack(after) / tiny)))
         assert poles[-1] == pytest.approx(1.0 - A_F * sample_s, abs=1e-8)
         assert poles[-2] < np.exp(-2.0 * sample_s)
 
@@ -178,19 +188,24 @@ def test_error_dynamics_are_stable_over_the_published_box(design, convention, sa
 def test_forgets_any_initial_error(design, sample_s):
     """Far from the origin too, where the injection is saturated."""
     observer = Observer(design(), sample_s)
-    state = observer.start(60)
-    state[:5] = np.random.default_rng(2).normal(size=(5, 60)) * 10.0 ** np.linspace(-6, 3, 60)
+    x = np.random.default_rng(2).normal(size=(5, 60)) * 10.0 ** np.linspace(-6, 3, 60)
+    state = replace(begun(observer, 60), x=x)
     rest = (np.zeros((3, 60)), np.zeros(60), np.zeros((13, 60)), np.zeros((4, 60)))
     for _ in range(round(15.0 / sample_s)):
-        state, _ = observer.step(state, *rest)
-    assert np.abs(state[:5]).max() < 1e-6
+        state, _ = stepped(observer, state, *rest)
+    assert np.abs(state.x).max() < 1e-6
 
 
 def test_bits_do_not_depend_on_the_company(design):
     observer, rng = Observer(design(), 0.01), np.random.default_rng(1)
     state, inputs = rng.normal(size=(11, 7)), [rng.normal(size=s) for s in ((3, 7), (7,), (13, 7), (4, 7))]
-    together, found = observer.step(state, *inputs)
+
+    def packed(state, *inputs):
+        after, found = stepped(observer, observer.states.unpack(state), *inputs)
+        return observer.states.pack(after), found
+
+    together, found = packed(state, *inputs)
     for i in range(7):
-        alone, one = observer.step(state[:, [i]], *[x[..., [i]] for x in inputs])
+        alone, one = packed(state[:, [i]], *[x[..., [i]] for x in inputs])
         assert alone.tobytes() == np.ascontiguousarray(together[:, [i]]).tobytes()
         assert one[0] == found[i]

@@ -34,7 +34,9 @@ class Loop:
     def prepare(self, flights):
         step = np.array([2.0 if name == "step" else 0.0 for name in flights.manoeuvres])
         gain, faults = flights.parameters["gain_ratio"], self.faults.prepare(flights.faults)
-        return Prepared(constants=Constants(gain=gain, step_deg=step, faults=faults), infeasible_reason=("",) * len(step))
+        return Prepared(
+            constants=Constants(gain=gain, step_deg=step, faults=faults), infeasible_reason=("",) * len(step)
+        )
 
     def start(self, c):
         return State(x=0.0, faults=self.faults.start(c.faults))

@@ -111,7 +111,7 @@ class JetEngineLoop:
         d = np.where(begins, c.sigma * n.disturbance, x.disturbance)
         time_s = sample * self.sample_s
         u = np.stack([interpolate(time_s, _of_input(c.knots_s, i), _of_input(c.u, i)) for i in range(plant.N)])
-        engine, y = plant.step(x.engine, c.engine, np.concatenate([f, d, u]))
+        engine, y = plant.engine(c.engine, self.sample_s).step(x.engine, np.concatenate([f, d, u]))
         after = EngineState(engine=engine, disturbance=d, faults=faults)
         truth = dict(zip(self.truth, [*f, *d], strict=True))
         departed = np.zeros_like(y[0]) > 1.0

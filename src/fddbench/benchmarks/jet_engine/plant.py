@@ -6,11 +6,12 @@ import numpy as np
 import yaml
 
 from fddbench.blocks.layout import Layout, Rows, record
-from fddbench.blocks.linear import column, product
-from fddbench.blocks.tustin import identity, inverse, times, tustin
+from fddbench.blocks.linear import column
+from fddbench.blocks.tustin import identity, inverse, times
 from fddbench.interfaces import Floats
+from fddbench.systems import DiscreteLti
 
-__all__ = ["CONSTANTS", "DELTA_79", "MATRICES", "EngineConstants", "N", "closed", "constants", "step"]
+__all__ = ["CONSTANTS", "DELTA_79", "MATRICES", "EngineConstants", "N", "closed", "constants", "engine"]
 
 _DATA = yaml.safe_load((Path(__file__).parent / "data" / "jet_engine.yaml").read_text(encoding="utf-8"))
 _NAMES = {"A": "Ao", "B": "Bo", "C": "Co", "D": "Do"}
@@ -55,16 +56,9 @@ def closed(delta: Floats) -> tuple[Floats, Floats, Floats, Floats]:
 
 def constants(delta: Floats, sample_s: float) -> EngineConstants:
     """Constants of engines with these Δ, (3, 3, n_cases)."""
-    A, B, C, D = (m.reshape(-1, m.shape[2]) for m in tustin(*closed(delta), sample_s=sample_s))
-    return EngineConstants(A=A, B=B, C=C, D=D)
+    return EngineConstants(**DiscreteLti.tustin(*closed(delta), sample_s=sample_s).rows())
 
 
-def step(x: Rows, c: EngineConstants, v: Rows) -> tuple[Rows, Rows]:
-    """State at the next sample and outputs at this one, (3, n_cases) each; v = (f, d, u) in nine rows."""
-    A, B, C, D = (_matrix(rows, len(rows) // N) for rows in (c.A, c.B, c.C, c.D))
-    return product(A, x) + product(B, v), product(C, x) + product(D, v)
-
-
-def _matrix(rows: Rows, n_columns: int) -> Rows:
-    """Rows as a matrix per case, (3, n_columns, n_cases)."""
-    return np.stack([rows[i * n_columns : (i + 1) * n_columns] for i in range(N)])
+def engine(c: EngineConstants, sample_s: float) -> DiscreteLti:
+    """Engines of these constants, from (f, d, u) in nine rows to three outputs."""
+    return DiscreteLti.from_rows(c.A, c.B, c.C, c.D, n_states=N, n_outputs=N, sample_s=sample_s)

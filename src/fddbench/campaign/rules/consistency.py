@@ -79,10 +79,8 @@ def _times(
     try:
         end_s = flight_s(faults, entry.manoeuvre, plant, duration_s=given, override_s=limit)
     except (FddbenchError, LookupError, ValueError):
-        n = len(faulty_sites(faults, plant.sites))
-        message = (
-            f"benchmark {benchmark.name!r} states no detection time for {n} faulty sites; add detection_time_limit_s"
-        )
+        sites = ", ".join(site.name for site in faulty_sites(faults, plant.sites))
+        message = f"benchmark {benchmark.name!r} states no detection time for {sites}; add detection_time_limit_s"
         yield document.mistake(("scenarios", number), message)
         return
     if end_s > LONGEST_FLIGHT_S:

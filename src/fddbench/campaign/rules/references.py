@@ -62,7 +62,9 @@ def _member(key: str, choice: Choice, name: str, benchmark: Benchmark, folder: P
         return choice.options[name], {}
     own = kinds.known(choice.family) if choice.family else ()
     if name not in own and not (choice.family and kinds.is_file_kind(name)):
-        raise FddbenchError(_no_such(f"{key} of benchmark {benchmark.name!r}", name, (*choice.options, *own)))
+        raise FddbenchError(
+            _no_such(f"{key} of benchmark {benchmark.name!r}", name, dict.fromkeys((*choice.options, *own)))
+        )
     kind = kinds.find(choice.family, name, beside=folder)
     missing = [part for part in choice.needs if part not in dir(kind.member)]
     if missing:

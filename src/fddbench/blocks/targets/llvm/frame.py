@@ -10,6 +10,8 @@ from fddbench.blocks.targets.llvm.writer import Vectors
 
 __all__ = ["write"]
 
+# with a frame pointer LLVM can align the stack to whole vectors; else every one put aside straddles two cache lines (8 %)
+_ATTRIBUTES = 'nounwind "frame-pointer"="all"'
 _POINTERS = ("state", "constants", "samples", "run", "flight", "scenario", "tile", "work")
 
 
@@ -23,7 +25,7 @@ def write(plan: Plan, lanes: int, *, rounds: bool) -> str:
     o = Vectors(lanes, rounds=rounds)
     text = memory.table(plan.slots, plan.n_recorded)
     pointers = ", ".join(f"ptr noalias noundef %{name}" for name in _POINTERS)
-    o.do(f"define void @fly(i64 %n, i64 %first, i64 %end, i64 %key, {pointers}) nounwind {{")
+    o.do(f"define void @fly(i64 %n, i64 %first, i64 %end, i64 %key, {pointers}) {_ATTRIBUTES} {{")
     o.do("entry:")
     random.keys(o)
     o.do("br label %block")
@@ -63,7 +65,7 @@ def _written(
 
 def _repeat(o: Vectors, text: dict[str, memory.Line], number: int, repeated: Repeated) -> None:
     """Function that runs a body `count` times over the vectors from ``%work`` on."""
-    o.do(f"define internal void @repeat_{number}(ptr noundef %work) nounwind {{")
+    o.do(f"define internal void @repeat_{number}(ptr noundef %work) {_ATTRIBUTES} {{")
     o.do("entry:")
     registers = _written(o, text, repeated.before, {})
     o.do("br label %each")

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from fddbench.design.systems import StateSpace, UncertainPlant, Weights
+from fddbench.design.weights import Weights
 from fddbench.errors import DesignError
+from fddbench.systems import StateSpace, UncertainPlant
 
 
 def parts(**changed):
