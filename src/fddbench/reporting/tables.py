@@ -1,6 +1,6 @@
 """The tables of the page: rows of formatted cells, ready for the template."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,7 +11,16 @@ from fddbench.metrics.shares import decided, share
 from fddbench.reporting.formats import DASH, count, interval, percent, present, rate, seconds, signed
 from fddbench.reporting.published import Published
 
-__all__ = ["RESULTS", "Cell", "event_lines", "published_lines", "reason_lines", "result_lines"]
+__all__ = [
+    "QUALITY",
+    "RESULTS",
+    "Cell",
+    "event_lines",
+    "published_lines",
+    "quality_lines",
+    "reason_lines",
+    "result_lines",
+]
 
 Line = dict[Any, Any]
 
@@ -28,26 +37,39 @@ class Cell:
 
 RESULTS = (
     *("flown", "healthy site<br>declared", "right", "late", "missed", "unde-<br>cided", "false<br>alarm"),
+    *("false alarms of<br>distinct flights", "per hour"),
+)
+QUALITY = (
     *(
-        "false alarms<br>of flights",
-        "per hour",
         "isolated",
         "median<br>[s]",
         "95 %<br>[s]",
         "max<br>[s]",
         "max /<br>limit",
+        "changes",
+        "bias of<br>estimate",
+        "rms",
     ),
-    *("changes", "bias of<br>estimate", "rms", "healthy<br>margin"),
+    "healthy<br>margin",
 )
-"""Heads of what `result_lines` gives after scenario and detector."""
+"""Heads of what `result_lines` and `quality_lines` give after scenario and detector."""
 
 
 def result_lines(summary: pd.DataFrame) -> list[list[Cell]]:
-    """One line of cells per scenario and detector; a scenario's cell spans its detectors."""
+    """Outcomes: one line of cells per scenario and detector; a scenario's cell spans its detectors."""
+    return _grouped(summary, _result)
+
+
+def quality_lines(summary: pd.DataFrame) -> list[list[Cell]]:
+    """Times, flicker, estimates and margins, in the same way."""
+    return _grouped(summary, _quality)
+
+
+def _grouped(summary: pd.DataFrame, cells_of: Callable[[Line], list[Cell]]) -> list[list[Cell]]:
     spans = summary.groupby("scenario", sort=False).size().to_dict()
     lines, previous = [], None
     for line in summary.to_dict("records"):
-        cells = _result(line)
+        cells = [Cell(line["detector"], "in sample" if line["in_sample"] else ""), *cells_of(line)]
         if line["scenario"] != previous:
             note = "healthy" if line["healthy"] else f"limit {_limit(line)}"
             note += f", pools {line['pools']}" if present(line["pools"]) else ""
@@ -66,13 +88,17 @@ def _result(line: Line) -> list[Cell]:
     lost = [f"{count(line[name])} {name}" for name in ("infeasible", "failed", "departed") if line[name]]
     hourly = interval(line["false_alarm_low_per_hour"], line["false_alarm_high_per_hour"], rate)
     return [
-        Cell(line["detector"], "in sample" if line["in_sample"] else ""),
         Cell(f"{count(line['flown'])}\u00a0of\u00a0{count(line['flights'])}", ", ".join(lost)),
         _counted(line, "wrong_site"),
         _right(line),
         *(Cell(count(line[name]), alarm=name != "undecided" and _some(line[name])) for name in _REST),
         Cell(f"{count(line['alarms'])}\u00a0of\u00a0{count(line['distinct_flights'])}", _ends(line, "alarms")),
         Cell(rate(line["false_alarm_per_hour"]), hourly),
+    ]
+
+
+def _quality(line: Line) -> list[Cell]:
+    return [
         Cell(count(line["isolated"])),
         Cell(seconds(line["detection_time_median_s"]), f"n {line['detections']}" if line["detections"] else ""),
         Cell(seconds(line["detection_time_p95_s"])),

@@ -1,6 +1,6 @@
 """The summary as plain text, for the end of a run in a terminal."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,7 +14,6 @@ __all__ = ["to_text"]
 _WIDTH = 80
 _LEAST_NAME = 16
 Line = dict[Any, Any]
-Table = list[tuple[str, list[str]]]
 
 
 @dataclass(frozen=True)
@@ -70,9 +69,9 @@ _ALARMS = (
     _Column("hours", _number("exposure_h", rate), 4),
 )
 _NOTE = (
-    "wrong: a healthy site declared; right: all faults found in time (healthy: quiet);",
-    "und.: ended before the limit, in no rate; false: alarm before the onset. Counts",
-    "of flown flights; right % of the decided ones. A dash: not defined here.",
+    "wrong: a healthy site declared; right: all faults found in time, or healthy and",
+    "quiet; und.: ended before the limit, in no rate; false: alarm before the onset.",
+    "Counts of flown flights, right % of the decided ones. A dash: not defined here.",
 )
 _ALARM_NOTE = ("Each flight once, however many scenarios share it, up to its first alarm.",)
 
@@ -96,19 +95,22 @@ def to_text(summary: pd.DataFrame, alarms: pd.DataFrame, *, wide: bool = False) 
     """
     if summary.empty:
         return "no rows: nothing was flown"
-    parts = [*_scenarios(summary, wide=wide), "", *_NOTE, "", *_alarms(alarms, wide=wide), "", *_ALARM_NOTE]
+    lines, of_alarms = summary.to_dict("records"), alarms.to_dict("records")
+    columns, width = _fitting(_OUTCOMES, lines, wide=wide)
+    alarm_columns, alarm_width = _fitting(_ALARMS, of_alarms, wide=wide)
+    # the same short name in both tables
+    names = shortened((str(line["detector"]) for line in lines), min(width, alarm_width))
+    parts = [*_scenarios(columns, lines, names, wide=wide), "", *_NOTE, ""]
+    parts += [*_false_alarms(alarm_columns, of_alarms, names), "", *_ALARM_NOTE]
     if not wide:
         parts.append("All columns: fddbench run --wide")
     return "\n".join(line.rstrip() for line in parts)
 
 
-def _scenarios(summary: pd.DataFrame, *, wide: bool) -> list[str]:
-    lines = summary.to_dict("records")
-    columns, width = _fitting(_OUTCOMES, lines, wide=wide)
-    names = shortened(map(str, summary["detector"].unique()), width)
+def _scenarios(columns: Sequence[_Column], lines: Sequence[Line], names: Mapping[str, str], *, wide: bool) -> list[str]:
     room = _WIDTH - max(len(_heading(line, "")) for line in lines)
-    scenarios = shortened(map(str, summary["scenario"].unique()), 10_000 if wide else room)
-    body = _aligned(columns, lines, [names[line["detector"]] + "*" * bool(line["in_sample"]) for line in lines], width)
+    scenarios = shortened((str(line["scenario"]) for line in lines), 10_000 if wide else room)
+    body = _aligned(columns, lines, names)
     text, previous = [body[0], "-" * len(body[0])], None
     for line, row in zip(lines, body[1:], strict=True):
         if line["scenario"] != previous:
@@ -119,8 +121,10 @@ def _scenarios(summary: pd.DataFrame, *, wide: bool) -> list[str]:
 
 
 def _heading(line: Line, name: str) -> str:
-    limit = "healthy" if line["healthy"] else f"limit {line['detection_time_limit_s']:g} s"
-    return f"{name} ({', '.join(filter(None, (limit, _pooled(line))))})"
+    limit_s = line["detection_time_limit_s"]
+    limit = "healthy" if line["healthy"] else f"limit {limit_s:g} s" if present(limit_s) else ""
+    notes = ", ".join(filter(None, (limit, _pooled(line))))
+    return f"{name} ({notes})" if notes else name
 
 
 def _pooled(line: Line) -> str:
@@ -131,11 +135,8 @@ def _marks(lines: Sequence[Line]) -> list[str]:
     return ["* in sample: tuned on flights of this campaign"] if any(line["in_sample"] for line in lines) else []
 
 
-def _alarms(alarms: pd.DataFrame, *, wide: bool) -> list[str]:
-    lines = alarms.to_dict("records")
-    columns, width = _fitting(_ALARMS, lines, wide=wide)
-    names = shortened(map(str, alarms["detector"]), width)
-    body = _aligned(columns, lines, [names[line["detector"]] + "*" * bool(line["in_sample"]) for line in lines], width)
+def _false_alarms(columns: Sequence[_Column], lines: Sequence[Line], names: Mapping[str, str]) -> list[str]:
+    body = _aligned(columns, lines, names)
     pooled = next((_pooled(line) for line in lines if _pooled(line)), "")
     title = f"False alarms of distinct flights{f' ({pooled})' if pooled else ''}"
     return [title, body[0], "-" * len(body[0]), *body[1:]]
@@ -161,10 +162,11 @@ def _width(column: _Column, lines: Sequence[Line]) -> int:
     return max(len(column.head), *(len(_plain(column.text(line))) for line in lines))
 
 
-def _aligned(columns: Sequence[_Column], lines: Sequence[Line], names: Sequence[str], width: int) -> list[str]:
-    """Head and lines of a table whose first column holds the names."""
+def _aligned(columns: Sequence[_Column], lines: Sequence[Line], short: Mapping[str, str]) -> list[str]:
+    """Head and lines of a table whose first column holds the names, with a mark where the detector was tuned here."""
+    names = [short[line["detector"]] + "*" * bool(line["in_sample"]) for line in lines]
     widths = [_width(column, lines) for column in columns]
-    first = max(width + 1, *map(len, names))
+    first = max(map(len, names))
     head = [" " * (first + 2), *(column.head.rjust(w) for column, w in zip(columns, widths, strict=True))]
     body = [
         [f"  {name:<{first}}", *(_plain(column.text(line)).rjust(w) for column, w in zip(columns, widths, strict=True))]
