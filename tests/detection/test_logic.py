@@ -49,10 +49,13 @@ def test_whole_confirmation_times_are_exact_sample_numbers(n, sample_s):
 
 
 @pytest.mark.parametrize(
-    ("time_s", "sample_s", "near"), [(0.1, 0.04, "0.08 and 0.12"), (0.025, 0.01, "0.02 and 0.03"), (0.004, 0.01, "0 and 0.01")]
+    ("time_s", "sample_s", "near"),
+    [(0.1, 0.04, "0.08 and 0.12"), (0.025, 0.01, "0.02 and 0.03"), (0.004, 0.01, "0 and 0.01")],
 )
 def test_a_time_between_samples_is_a_design_for_another_clock(time_s, sample_s, near):
-    with pytest.raises(DesignError, match=f"confirm_s = {time_s} falls .* the nearest are {near}.*made for another clock"):
+    with pytest.raises(
+        DesignError, match=f"confirm_s = {time_s} falls .* the nearest are {near}.*made for another clock"
+    ):
         samples("confirm_s", time_s, sample_s)
 
 

@@ -308,7 +308,11 @@ def test_solid_oscillation_replaces_the_signal_and_frozen_runaway_starts_from_it
 
 def test_several_faults_act_one_after_the_other():
     healthy, normals = healthy_signal(2), normals_of(2, slots=3)
-    faults = [fault("bias"), fault("nrz", amplitude_deg_s=40.0, sites=("r2",), onset_s=0.1, end_s=0.3), fault("noise", sites=("r3", "r1"))]
+    faults = [
+        fault("bias"),
+        fault("nrz", amplitude_deg_s=40.0, sites=("r2",), onset_s=0.1, end_s=0.3),
+        fault("noise", sites=("r3", "r1")),
+    ]
     found = fly(faults, healthy, normals)
     parts = [fly([one], healthy, normals[:, [j]]) - healthy for j, one in enumerate(faults)]
     np.testing.assert_allclose(found, healthy + sum(parts), atol=1e-13)

@@ -109,7 +109,7 @@ def _content(report: ReportData) -> dict[str, Any]:
         "published": report.published,
         "compared": compared,
         "curves": figures.detection_curves(rows),
-        "pictures": [_picture(recording, rows) for recording in report.recordings if recording.cases],
+        "pictures": [p for r in report.recordings if r.cases for p in [_picture(r, rows)] if p["png"] is not None],
         "envelope": figures.envelope(rows, report.envelope_axes),
         "reasons": reasons[:_MOST_REASONS],
         "more_reasons": max(len(reasons) - _MOST_REASONS, 0),

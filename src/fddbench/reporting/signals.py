@@ -19,7 +19,7 @@ __all__ = ["recording_picture", "signal_panels", "window", "worst_case"]
 _MOST_PANELS = 3
 
 
-def recording_picture(recording: Recording, rows: pd.DataFrame) -> str:
+def recording_picture(recording: Recording, rows: pd.DataFrame) -> str | None:
     """Picture of one scenario: a line of panels per detector, thin lines for all cases, the worst one highlighted."""
     detectors = list(recording.detectors)
     panels = {name: signal_panels(recording.detectors[name]) for name in detectors}
