@@ -108,8 +108,8 @@ def test_signs_that_make_no_sense_are_refused():
         Noise(kind="noise", **WHERE, variance_deg2_s2=-1.0)
     with pytest.raises(ValidationError, match="greater than or equal to 0"):
         Drift(kind="drift", **WHERE, rate_deg_s2=1.0, amplitude_deg_s=-1.0)
-    with pytest.raises(ValidationError, match="greater than 0"):
-        Nrz(kind="nrz", **WHERE, amplitude_deg_s=1.0, bit_s=0.0)
+    with pytest.raises(ValidationError, match="greater than or equal to 0"):
+        Nrz(kind="nrz", **WHERE, amplitude_deg_s=1.0, bit_s=-1.0)
 
 
 @pytest.mark.parametrize(("kind", "sizes"), [(Bias, {"amplitude_deg_s": 1.0}),
