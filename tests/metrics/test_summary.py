@@ -20,7 +20,7 @@ def rows_of(*lines):
     """Arrow-backed rows; what a line does not say is null; a run of its own each unless told."""
     base = {"scenario": "jam_a", "manoeuvre": "cruise", "detector": "d", "status": "ok", "n_faulty": 1}
     base |= {"point": 0, "level": 0, "onset_s": 2.0, "flight_s": 20.0, "detection_time_limit_s": 10.0}
-    listed = [base | {"case": i, "run": i} | line for i, line in enumerate(lines)]
+    listed = [base | {"run": i} | line for i, line in enumerate(lines)]
     return pa.Table.from_pylist(listed, schema=rows_schema(())).to_pandas(types_mapper=pd.ArrowDtype)
 
 

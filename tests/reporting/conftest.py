@@ -9,6 +9,7 @@ from fddbench.interfaces import Recording
 from fddbench.reporting.page import ReportData
 from fddbench.reporting.published import published
 from fddbench.results.schema import EVENTS, rows_schema
+from fddbench.results.table import named
 
 FAULTS = {  # scenario: (faulty sites, limit s, median s, spread s)
     "oscill_a": (1, 120.0, 4.10, 0.10),
@@ -31,7 +32,8 @@ FAULTY_FIELDS = {  # scores of a faulty flight in which nothing was declared
 
 def frame(rows, schema=None):
     """Arrow-backed pandas, as `fddbench.load` returns it."""
-    return pa.Table.from_pylist(rows, schema=schema or rows_schema(PARAMETERS)).to_pandas(types_mapper=pd.ArrowDtype)
+    table = pa.Table.from_pylist(rows, schema=schema or rows_schema(PARAMETERS))
+    return named(table).to_pandas(types_mapper=pd.ArrowDtype)
 
 
 def scores(scenario, detector, rng):
@@ -63,7 +65,7 @@ def synthetic_rows(scenarios, detectors, flights, lost=None):
             drawn = np.random.default_rng(run)
             box = ((180e3, 220e3), (0.27, 0.33), (15e3, 25e3), (260.0, 320.0))
             sizes = [drawn.uniform(low, high) for low, high in box]
-            who = {"case": s * flights + run, "scenario": scenario, "manoeuvre": "cruise", "run": run, "status": "ok"}
+            who = {"scenario": scenario, "manoeuvre": "cruise", "run": run, "status": "ok"}
             who |= {"point": 0, "level": 0}
             who |= {f"p_{name}": value for name, value in zip(PARAMETERS, (*sizes, 0.0), strict=True)}
             who["fault"] = scenario.partition("_")[0] if scenario in FAULTS else None
@@ -78,7 +80,7 @@ def synthetic_rows(scenarios, detectors, flights, lost=None):
 
 def synthetic_recording(rows, scenario, detectors, n_cases=50):
     """Re-flown flights of a scenario, plausible to the eye."""
-    cases = tuple(int(case) for case in rows[rows["scenario"] == scenario]["case"].unique()[:n_cases])
+    cases = tuple(str(case) for case in rows[rows["scenario"] == scenario]["case"].unique()[:n_cases])
     n, _, median, spread = FAULTS.get(scenario, (0, None, np.inf, 0.0))
     rng = np.random.default_rng(1)
     time_s = np.arange(0.0, 12.0, 0.01)
@@ -105,7 +107,7 @@ def synthetic_recording(rows, scenario, detectors, n_cases=50):
         scenario=scenario,
         cases=cases,
         time_s=time_s,
-        onset_s=2.0 if n else None,
+        onset_s=np.full(len(cases), 2.0) if n else None,
         signals={"v_y_m_s": np.zeros(shape), **sensors},
         detectors={name: full if name == "sliding_mode" else plain for name in detectors},
     )

@@ -73,7 +73,6 @@ def test_text_of_users_is_escaped(make_report):
 
 def test_events_show_when_there_are_some(make_report, make_events):
     event = {
-        "case": 0,
         "scenario": "jam_a",
         "point": 0,
         "level": 0,
