@@ -7,8 +7,7 @@ from fddbench.campaign.check import describe
 from fddbench.campaign.load import read_campaign
 from fddbench.campaign.plan import plan
 from fddbench.campaign.streams import scenario_stream
-from fddbench.campaign.timing import on_clock
-from fddbench.faults.timing import samples
+from fddbench.clock import on_clock, samples
 
 TWO = "      - {kind: jam, sites: [r1], onset_s: 4, amplitude_percent: 10}\n"
 LATE = TWO + "      - {kind: noise, sites: [r2], onset_s: 9, end_s: 12, variance_percent: 1}\n"
@@ -16,11 +15,13 @@ LATE = TWO + "      - {kind: noise, sites: [r2], onset_s: 9, end_s: 12, variance
 
 def test_numbers_cases_scenario_by_scenario(write):
     found = plan(read_campaign(write(), ["scenarios.healthy.runs=2", "dispersions.grid.speed_kt=[200, 250]"]))
-    assert [(scenario.first_case, scenario.n_runs) for scenario in found.scenarios] == [(0, 4), (4, 10)]
+    assert [(scenario.first_case, scenario.n_cases) for scenario in found.scenarios] == [(0, 4), (4, 10)]
     assert (found.n_cases, found.n_rows) == (14, 14)
-    position, run = found.locate([0, 3, 4, 13])
-    assert position.tolist() == [0, 0, 1, 1]
-    assert run.tolist() == [0, 3, 0, 9]
+    at = found.locate([0, 3, 4, 13])
+    assert at.scenario.tolist() == [0, 0, 1, 1]
+    assert (at.point.tolist(), at.level.tolist(), at.run.tolist()) == ([0, 1, 0, 1], [0] * 4, [0, 1, 0, 4])
+    assert found.names([3, 13]) == ("healthy/1/0/1", "jam_a/1/0/4")
+    assert found.numbers(found.names(range(14))).tolist() == list(range(14))
     for outside in (-1, 14):
         with pytest.raises(IndexError, match="0 ... 13"):
             found.locate([outside])
@@ -28,32 +29,32 @@ def test_numbers_cases_scenario_by_scenario(write):
 
 def test_flights_are_long_enough_for_their_faults(write):
     healthy, jam = plan(read_campaign(write())).scenarios
-    assert (healthy.duration_s, healthy.n_samples, healthy.k0, healthy.limit_s, healthy.n_faulty) == (
-        60.0,
-        6001,
-        None,
-        None,
-        0,
-    )
-    assert (jam.duration_s, jam.n_samples, jam.k0, jam.limit_s, jam.n_faulty) == (129.0, 12901, 400, 120.0, 1)
+    assert (healthy.durations_s, healthy.samples, healthy.latest_onset_s, healthy.requirement_s, healthy.n_faulty) == (
+        (60.0,), (6001,), None, None, 0,
+    )  # fmt: skip
+    assert (jam.durations_s, jam.samples, jam.latest_onset_s, jam.requirement_s, jam.n_faulty) == (
+        (129.0,), (12901,), 4.0, 120.0, 1,
+    )  # fmt: skip
     assert jam.stream == scenario_stream("evaluation", "jam_a")
 
 
 def test_the_scenario_s_duration_and_limit_win(write):
     overrides = ["duration_s=200", "scenarios.jam_a.duration_s=20", "scenarios.jam_a.detection_time_limit_s=1.5"]
     healthy, jam = plan(read_campaign(write(), overrides)).scenarios
-    assert (healthy.duration_s, jam.duration_s, jam.limit_s, jam.event_limits_s) == (200.0, 20.0, 1.5, (1.5,))
+    assert (healthy.durations_s, jam.durations_s) == ((200.0,), (20.0,))
+    assert (jam.requirement_s, jam.event_requirements_s) == (1.5, (1.5,))
 
 
 def test_two_faults_have_their_own_limits_and_a_common_one(write):
     jam = plan(read_campaign(write(**{TWO: LATE}), ["duration_s=20"])).scenarios[1]
-    assert (jam.k0, jam.limit_s, jam.event_limits_s, jam.faulty_sites) == (400, 5.36, (120.0, 120.0), ("r1", "r2"))
+    assert (jam.latest_onset_s, jam.requirement_s, jam.event_requirements_s) == (9.0, 0.36, (120.0, 120.0))
+    assert jam.faulty_sites == ("r1", "r2")
 
 
 def test_delay_prolongs_the_flight(write):
     delayed = TWO.replace("[r1]", "[r1, r3]").replace("onset_s", "delay_s: 2, onset_s")
     jam = plan(read_campaign(write(**{TWO: delayed}))).scenarios[1]
-    assert jam.duration_s == pytest.approx(4 + 2 + 0.36 + 5)
+    assert jam.durations_s == (pytest.approx(4 + 2 + 0.36 + 5),)
 
 
 def test_run_seven_is_the_same_aircraft_in_every_scenario(write):

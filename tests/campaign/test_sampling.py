@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fddbench.campaign.rules.model import Dispersions, Distribution, MonteCarlo, Normal, TruncatedNormal
-from fddbench.campaign.sampling import count, digits, parameters
+from fddbench.campaign.sampling import digits, parameters, point_radices
 from fddbench.interfaces import Parameter
 
 PARAMETERS = [Parameter(name=name, about="", default=1.5, low=-1e9, high=1e9) for name in ("a_kg", "b_m", "c_s", "d")]
@@ -17,8 +17,9 @@ def drawn(runs=50, **distributions):
     return Dispersions(monte_carlo=MonteCarlo(runs=runs, **distributions))
 
 
-def sample(dispersions, runs, *, key=11, purpose="evaluation", **options):
-    return parameters(dispersions, PARAMETERS, key=key, purpose=purpose, runs=np.asarray(runs), **options)
+def sample(dispersions, runs, *, points=0, key=11, purpose="evaluation"):
+    runs, points = np.broadcast_arrays(runs, points)
+    return parameters(dispersions, PARAMETERS, key=key, purpose=purpose, points=points, runs=runs)
 
 
 @given(st.lists(st.integers(1, 7), min_size=1, max_size=5), st.data())
@@ -49,23 +50,30 @@ def test_another_parameter_changes_no_other():
 def test_order_of_keys_means_nothing():
     one = Dispersions(grid={"a_kg": (1.0, 2.0), "b_m": (3.0, 4.0, 5.0)})
     other = Dispersions(grid={"b_m": (3.0, 4.0, 5.0), "a_kg": (1.0, 2.0)})
-    for name, values in sample(one, range(6)).items():
-        np.testing.assert_array_equal(values, sample(other, range(6))[name])
+    for name, values in sample(one, 0, points=range(6)).items():
+        np.testing.assert_array_equal(values, sample(other, 0, points=range(6))[name])
 
 
-def test_grid_is_slowest_then_sequence_then_draws():
+def test_a_point_is_its_grid_values_and_its_step_of_the_sequence():
     dispersions = Dispersions(
         grid={"a_kg": (1.0, 2.0)},
         sequence={"b_m": (10.0, 20.0, 30.0), "d": (-1.0, -2.0, -3.0)},
         monte_carlo=MonteCarlo(runs=2, c_s=UNIFORM),
     )
-    assert count(dispersions) == (2, 3, 2)
-    assert count(dispersions, monte_carlo_runs=5) == (2, 3, 5)
-    found = sample(dispersions, range(12))
-    assert found["a_kg"].tolist() == [1.0] * 6 + [2.0] * 6
-    assert found["b_m"].tolist() == [10.0, 10.0, 20.0, 20.0, 30.0, 30.0] * 2
-    assert found["d"].tolist() == [-1.0, -1.0, -2.0, -2.0, -3.0, -3.0] * 2
-    assert len(set(found["c_s"])) == 12
+    assert point_radices(dispersions) == (2, 3)
+    found = sample(dispersions, 1, points=range(6))
+    assert found["a_kg"].tolist() == [1.0] * 3 + [2.0] * 3
+    assert found["b_m"].tolist() == [10.0, 20.0, 30.0] * 2
+    assert found["d"].tolist() == [-1.0, -2.0, -3.0] * 2
+    assert len(set(found["c_s"])) == 1, "run 1 is the same draw at every point"
+    assert len(set(sample(dispersions, range(12), points=3)["c_s"])) == 12
+
+
+def test_another_grid_value_changes_no_draw():
+    few = Dispersions(grid={"a_kg": (1.0, 2.0)}, monte_carlo=MonteCarlo(runs=5, c_s=UNIFORM))
+    more = Dispersions(grid={"a_kg": (1.0, 1.5, 2.0), "b_m": (1.0, 2.0)}, monte_carlo=MonteCarlo(runs=9, c_s=UNIFORM))
+    for point in range(6):
+        np.testing.assert_array_equal(sample(more, range(5), points=point)["c_s"], sample(few, range(5))["c_s"])
 
 
 def test_undispersed_parameters_have_their_default():

@@ -1,12 +1,14 @@
 """Outlier, confirmation, choice and latch: the laws of the decision logic."""
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from fddbench.detection.confirmation import held_samples, samples
 from fddbench.detection.consolidation import deviations_deg_s, largest_deviation_deg_s, outlier
 from fddbench.detection.isolation import choose, latch
+from fddbench.errors import DesignError
 
 distances = st.lists(st.sampled_from((0.0, 0.1, 0.2, 0.5, 7.0)), min_size=3, max_size=3)
 energies = st.lists(st.sampled_from((0.0, 0.5, 1.0, 3.0, 900.0, 1e4, 1e6)), min_size=3, max_size=3)
@@ -43,12 +45,23 @@ def test_held_samples_counts_the_last_unbroken_run(flags):
 
 @given(st.integers(1, 500), st.sampled_from((0.001, 0.005, 0.01, 0.02, 0.04)))
 def test_whole_confirmation_times_are_exact_sample_numbers(n, sample_s):
-    assert samples(n * sample_s, sample_s) == n
+    assert samples("confirm_s", n * sample_s, sample_s) == n
 
 
-def test_a_flag_is_never_confirmed_before_its_time():
-    for time_s, sample_s in ((0.1, 0.04), (0.1, 0.03), (0.025, 0.01), (0.004, 0.01)):
-        assert samples(time_s, sample_s) * sample_s >= time_s - 1e-9, (time_s, sample_s)
+@pytest.mark.parametrize(
+    ("time_s", "sample_s", "near"),
+    [(0.1, 0.04, "0.08 and 0.12"), (0.025, 0.01, "0.02 and 0.03"), (0.004, 0.01, "0 and 0.01")],
+)
+def test_a_time_between_samples_is_a_design_for_another_clock(time_s, sample_s, near):
+    with pytest.raises(
+        DesignError, match=f"confirm_s = {time_s} falls .* the nearest are {near}.*made for another clock"
+    ):
+        samples("confirm_s", time_s, sample_s)
+
+
+def test_a_window_lasts_at_least_a_sample():
+    with pytest.raises(DesignError, match="window_s = 0.004 is shorter than a sample of 0.01 s; the shortest is 0.01"):
+        samples("window_s", 0.004, 0.01, least=1)
 
 
 def one_hot(site):

@@ -27,7 +27,7 @@ WHERE = {"sites": ("r1", "r2"), "onset_s": 2.0}
 SIZES = (
     (Bias, "bias", {"amplitude_percent": 5.0}, {"amplitude_deg_s": 2.0}, {"offset": 2.0}),
     (Jam, "jam", {"amplitude_percent": 1.25}, {"amplitude_deg_s": 0.5}, {"offset": 0.5}),
-    (Runaway, "runaway", {"rate_percent_s": 2.5}, {"rate_deg_s2": 1.0}, {"rate": 1.0, "low": -128.0, "high": 128.0}),
+    (Runaway, "runaway", {"rate_percent_s": 2.5}, {"rate_deg_s2": 1.0}, {"rate": 1.0}),
     (Nrz, "nrz", {"amplitude_percent": 320.0}, {"amplitude_deg_s": 128.0}, {"size": 128.0, "bit_s": 0.05}),
     (Noise, "noise", {"variance_percent": 1.25}, {"variance_deg2_s2": 0.5}, {"sigma": math.sqrt(0.5)}),
     (
@@ -108,8 +108,8 @@ def test_signs_that_make_no_sense_are_refused():
         Noise(kind="noise", **WHERE, variance_deg2_s2=-1.0)
     with pytest.raises(ValidationError, match="greater than or equal to 0"):
         Drift(kind="drift", **WHERE, rate_deg_s2=1.0, amplitude_deg_s=-1.0)
-    with pytest.raises(ValidationError, match="greater than 0"):
-        Nrz(kind="nrz", **WHERE, amplitude_deg_s=1.0, bit_s=0.0)
+    with pytest.raises(ValidationError, match="greater than or equal to 0"):
+        Nrz(kind="nrz", **WHERE, amplitude_deg_s=1.0, bit_s=-1.0)
 
 
 @pytest.mark.parametrize(("kind", "sizes"), [(Bias, {"amplitude_deg_s": 1.0}),

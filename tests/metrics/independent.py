@@ -32,6 +32,7 @@ class Flight:
     residual: tuple = ()
     estimate: dict | None = None
     added: dict | None = None
+    watches: tuple | None = None
 
     # --- the letters of the contract ---
     @property
@@ -190,8 +191,11 @@ def _final(flight):
     flown = k0 is not None and last >= k0
     watched = flight.samples(k0, last) if flown else ()
     said = flight.D if flight.isolates else flight.A
+    left = flight.departed is not None and flight.departed < len(flight.declared)
     return {
         "flight_s": _seconds(flight, max(last, 0), 0),
+        "departed_s": _seconds(flight, flight.departed, 0) if left else None,
+        "watched": None if k0 is None else faulty <= set(flight.watches or flight.sites),
         "onset_s": _seconds(flight, k0, 0),
         "n_faulty": len(faulty),
         "faulty_sites": flight.named(faulty),
@@ -221,11 +225,16 @@ def _estimate(flight):
     Of each fault that was found: on its own sites that the detector estimates (or on the voted signal), from 1 s after
     its detection to its end; all of these together. A fault declared before it began has no detection to count from.
     """
+    return _errors(flight, flight.faults)
+
+
+def _errors(flight, faults):
+    """Bias and rms over some of its faults."""
     errors = []
-    for fault in flight.faults if flight.estimate is not None else ():
+    for fault in faults if flight.estimate is not None else ():
         at = found(flight, fault)
         if at not in (None, BEFORE):
-            own = {site for site, *_ in fault}
+            own = {site for site, *_ in fault} & set(flight.watches or flight.sites)
             signals = [name for name in flight.estimate if name in own or name not in flight.sites]
             window = flight.samples(at + round(1.0 / flight.sample_s), end(fault, flight.last))
             errors += [flight.estimate[name][k] - flight.added[name][k] for k in window for name in signals]
@@ -239,12 +248,15 @@ def _events(flight):
     events = []
     for fault in flight.faults:
         outcome, at = judged(flight, [fault])
+        within = limit(flight, [fault])
         events.append(
-            {
+            _errors(flight, [fault])
+            | {
                 "sites": flight.named({site for site, *_ in fault}),
                 "onset_s": _seconds(flight, onset(fault), 0),
                 "detection_time_s": _seconds(flight, at, onset(fault)),
-                "detection_time_limit_s": _seconds(flight, limit(flight, [fault]), 0),
+                "detection_time_limit_s": _seconds(flight, within, 0),
+                "normalized_detection_time": None if at is None else (at - onset(fault)) / within,
                 "outcome": outcome,
             }
         )

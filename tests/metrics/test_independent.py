@@ -58,7 +58,7 @@ def test_declared_before_without_a_mistake_needs_an_earlier_fault():
 
 @pytest.mark.parametrize("later", [1, 5])
 def test_a_flight_that_begins_later_scores_the_same(later):
-    moved = {"onset_s", "flight_s", "false_alarm_time_s"}
+    moved = {"onset_s", "flight_s", "false_alarm_time_s", "departed_s"}
     for flight, scores in SCORED[:2000]:
         if flight.last < 0:
             continue

@@ -9,6 +9,7 @@ from fddbench.interfaces import Recording
 from fddbench.reporting.page import ReportData
 from fddbench.reporting.published import published
 from fddbench.results.schema import EVENTS, rows_schema
+from fddbench.results.table import named
 
 FAULTS = {  # scenario: (faulty sites, limit s, median s, spread s)
     "oscill_a": (1, 120.0, 4.10, 0.10),
@@ -22,44 +23,38 @@ FAULTS = {  # scenario: (faulty sites, limit s, median s, spread s)
     "noise_a": (1, 120.0, 1.02, 0.05),
     "noise_b": (2, 0.36, 0.12, 0.012),
 }
+AXES = (("v_cas_kt", "altitude_ft"), ("x_cg_ratio", "mass_kg"))
 PARAMETERS = ("mass_kg", "x_cg_ratio", "altitude_ft", "v_cas_kt", "delta_c_y_percent")
 FAULTY_FIELDS = {  # scores of a faulty flight in which nothing was declared
-    **{"n_declared": 0, "detected": False, "classified": False, "isolated": False, "false_isolation": False},
-    **{"over_declared": False, "missed": True, "censored": False, "false_alarm": False},
+    **{"outcome": "missed", "n_declared": 0, "isolated": False, "over_declared": False, "changes": 0, "watched": True},
 }
 
 
 def frame(rows, schema=None):
     """Arrow-backed pandas, as `fddbench.load` returns it."""
-    return pa.Table.from_pylist(rows, schema=schema or rows_schema(PARAMETERS)).to_pandas(types_mapper=pd.ArrowDtype)
+    table = pa.Table.from_pylist(rows, schema=schema or rows_schema(PARAMETERS))
+    return named(table).to_pandas(types_mapper=pd.ArrowDtype)
 
 
 def scores(scenario, detector, rng):
     """Scores of one flown flight."""
     if scenario not in FAULTS:
-        return {
-            "n_faulty": 0,
-            "flight_s": 60.0,
-            "n_declared": 0,
-            "false_alarm": False,
-            "margin_healthy": rng.uniform(0.1, 0.8),
-        }
+        quiet = {"n_faulty": 0, "flight_s": 60.0, "n_declared": 0, "outcome": "quiet"}
+        return quiet | {"margin_healthy": rng.uniform(0.1, 0.8)}
     n, limit, median, spread = FAULTS[scenario]
     row = FAULTY_FIELDS | {"n_faulty": n, "onset_s": 2.0, "detection_time_limit_s": limit, "flight_s": 7.0 + limit}
     row |= {"faulty_sites": "r1" if n == 1 else "r1+r2", "margin_healthy": 0.4, "margin_faulty": 6.0}
-    if detector == "voting_monitor" and n == 2:
-        return row | {"n_declared": 1, "declared_sites": "r3", "detected": True, "false_isolation": True}
     time_s = round(max(median + spread * rng.standard_normal(), 0.01), 2)
-    over = bool(scenario == "noise_a" and detector == "sliding_mode" and rng.random() < 0.04)
-    row |= {"detection_time_s": time_s, "first_alarm_time_s": time_s, "normalized_detection_time": time_s / limit}
-    row |= {
-        "detected": True,
-        "classified": not over,
-        "isolated": not over,
-        "over_declared": over,
-        "missed": time_s > limit,
-    }
-    return row | {"n_declared": n + over, "declared_sites": row["faulty_sites"]}
+    wrong = {"outcome": "wrong_site", "wrong_site_time_s": time_s, "alarm_time_s": time_s, "changes": 1}
+    if detector == "voting_monitor" and n == 2:
+        return row | wrong | {"n_declared": 1, "declared_sites": "r3"}
+    if scenario == "noise_a" and detector == "sliding_mode" and rng.random() < 0.04:
+        return row | wrong | {"n_declared": 2, "declared_sites": "r1+r2", "over_declared": True}
+    row |= {"detection_time_s": time_s, "alarm_time_s": time_s, "normalized_detection_time": time_s / limit}
+    row |= {"outcome": "right" if time_s <= limit else "late", "isolated": True, "changes": 1}
+    if detector == "sliding_mode" and n == 2:
+        row |= {"estimate_bias": -0.04, "estimate_rms": 0.05}
+    return row | {"n_declared": n, "declared_sites": row["faulty_sites"]}
 
 
 def synthetic_rows(scenarios, detectors, flights, lost=None):
@@ -70,7 +65,8 @@ def synthetic_rows(scenarios, detectors, flights, lost=None):
             drawn = np.random.default_rng(run)
             box = ((180e3, 220e3), (0.27, 0.33), (15e3, 25e3), (260.0, 320.0))
             sizes = [drawn.uniform(low, high) for low, high in box]
-            who = {"case": s * flights + run, "scenario": scenario, "manoeuvre": "cruise", "run": run, "status": "ok"}
+            who = {"scenario": scenario, "manoeuvre": "cruise", "run": run, "status": "ok"}
+            who |= {"point": 0, "level": 0}
             who |= {f"p_{name}": value for name, value in zip(PARAMETERS, (*sizes, 0.0), strict=True)}
             who["fault"] = scenario.partition("_")[0] if scenario in FAULTS else None
             for d, detector in enumerate(detectors):
@@ -84,7 +80,7 @@ def synthetic_rows(scenarios, detectors, flights, lost=None):
 
 def synthetic_recording(rows, scenario, detectors, n_cases=50):
     """Re-flown flights of a scenario, plausible to the eye."""
-    cases = tuple(int(case) for case in rows[rows["scenario"] == scenario]["case"].unique()[:n_cases])
+    cases = tuple(str(case) for case in rows[rows["scenario"] == scenario]["case"].unique()[:n_cases])
     n, _, median, spread = FAULTS.get(scenario, (0, None, np.inf, 0.0))
     rng = np.random.default_rng(1)
     time_s = np.arange(0.0, 12.0, 0.01)
@@ -111,7 +107,7 @@ def synthetic_recording(rows, scenario, detectors, n_cases=50):
         scenario=scenario,
         cases=cases,
         time_s=time_s,
-        onset_s=2.0 if n else None,
+        onset_s=np.full(len(cases), 2.0) if n else None,
         signals={"v_y_m_s": np.zeros(shape), **sensors},
         detectors={name: full if name == "sliding_mode" else plain for name in detectors},
     )
@@ -142,6 +138,8 @@ def synthetic_report(
         ],
         "recordings": [synthetic_recording(rows, name, detectors) for name in scenarios if flights],
         "published": published("table8"),
+        "choices": ("plant", "voter", "sensors", "wind"),
+        "envelope_axes": AXES,
     }
     return ReportData(**(known | changes))
 

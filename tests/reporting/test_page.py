@@ -12,7 +12,8 @@ LOST = dict.fromkeys(range(6), ("infeasible", "cannot hold <cruise>"))
 def test_page_is_one_file_without_network(make_report, tmp_path):
     output = tmp_path / "new" / "page.html"
     write_page(
-        make_report(scenarios=("jam_a", "jam_b", "healthy"), flights=8, lost={1: ("diverged", "departed")}), output
+        make_report(scenarios=("jam_a", "jam_b", "healthy"), flights=8, lost={1: ("error", "ValueError: departed")}),
+        output,
     )
     page = output.read_text(encoding="utf-8")
     assert "http://" not in page
@@ -30,9 +31,7 @@ def test_page_is_one_file_without_network(make_report, tmp_path):
 
 def test_dangerous_event_comes_first(make_report):
     page = page_html(make_report(scenarios=("noise_a",), flights=10, recordings=()))
-    assert (
-        page.index("More sites declared than faulty") < page.index("True detection") < page.index("Results by scenario")
-    )
+    assert page.index("Healthy sites declared") < page.index("Right: found in time") < page.index("Results by scenario")
 
 
 def test_same_input_same_bytes(make_report):
@@ -74,17 +73,25 @@ def test_text_of_users_is_escaped(make_report):
 
 def test_events_show_when_there_are_some(make_report, make_events):
     event = {
-        "case": 0,
         "scenario": "jam_a",
+        "point": 0,
+        "level": 0,
         "run": 0,
         "detector": "sliding_mode",
         "status": "ok",
-        "event": 2,
-        "fault": "jam",
     }
-    event |= {"sites": "r2", "onset_s": 4.0, "end_s": 9.0, "detected": False, "missed": True, "censored": False}
+    event |= {"event": 2, "fault": "jam", "sites": "r2", "onset_s": 4.0, "end_s": 9.0, "outcome": "declared_before"}
     report = make_report(scenarios=("jam_a",), flights=2, recordings=(), events=make_events([event]))
-    assert "r2, 4 s to 9 s" in page_html(report)
+    page = page_html(report)
+    assert "r2, 4 s to 9 s" in page
+    assert page.index("declared before</th>") < page.index("r2, 4 s to 9 s")
+
+
+def test_a_design_tuned_on_these_flights_is_marked(make_report):
+    page = page_html(make_report(scenarios=("jam_a",), flights=3, recordings=(), in_sample=("voting_monitor",)))
+    assert "voting_monitor (in sample)" in page
+    assert "<small>in sample</small>" in page
+    assert "sliding_mode (in sample)" not in page
 
 
 def test_recordings_with_ended_flights(make_report):

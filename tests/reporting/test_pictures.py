@@ -45,15 +45,21 @@ def test_window_runs_from_a_second_before_the_onset_to_shortly_after_the_last_de
     assert window(replace(recording, onset_s=None)) == (0, len(recording.time_s))
 
 
-def test_worst_case_is_over_declared_then_undetected_then_slowest(make_report):
-    report = make_report(scenarios=("jam_a",), detectors=("d",), flights=4, lost={0: ("diverged", "departed")})
+def test_worst_case_has_a_wrong_site_then_is_not_found_then_slowest(make_report):
+    report = make_report(scenarios=("jam_a",), detectors=("d",), flights=4, lost={0: ("error", "ValueError")})
     rows, (recording,) = report.rows, report.recordings
     rows["detection_time_s"] = pd.array([None, 1.0, 3.0, 2.0], dtype=rows["detection_time_s"].dtype)
     assert worst_case(recording, rows, "d") == 2
     rows["detection_time_s"] = pd.array([None, 1.0, 3.0, None], dtype=rows["detection_time_s"].dtype)
     assert worst_case(recording, rows, "d") == 3
-    rows["over_declared"] = pd.array([None, True, False, None], dtype=rows["over_declared"].dtype)
+    rows["wrong_site_time_s"] = pd.array([None, 0.5, None, None], dtype=rows["wrong_site_time_s"].dtype)
     assert worst_case(recording, rows, "d") == 1
+
+
+def test_envelope_pairs_what_the_benchmark_says(make_rows):
+    rows = make_rows(("jam_a",), ("d",), 5)
+    assert envelope(rows, (("v_cas_kt", "altitude_ft"),)) != envelope(rows, (("v_cas_kt", "mass_kg"),))
+    assert envelope(rows, (("no_such", "mass_kg"),)) == envelope(rows)
 
 
 def test_envelope_shows_only_what_varies(make_rows):

@@ -1,7 +1,12 @@
+from pathlib import Path
+
 import pytest
 
+from fddbench import kinds
 from fddbench.errors import FddbenchError
-from fddbench.reporting.published import published, published_for
+from fddbench.interfaces import SinglePlant
+from fddbench.reporting import page
+from fddbench.reporting.published import iterations_for, published, published_for
 
 
 @pytest.mark.parametrize("table", ["table7", "table8", "table9", "table10", "table11"])
@@ -33,8 +38,21 @@ def test_table8_as_printed():
 
 
 def test_a_campaign_names_its_table():
-    assert published_for({"benchmark": "yaw_rate"}).table == 8
-    assert published_for({"benchmark": "yaw_rate", "published": "table10"}).table == 10
-    assert published_for({"benchmark": "jet_engine"}) is None
+    assert published_for({}, "table8").table == 8
+    assert published_for({"published": "table10"}, "table8").table == 10
+    assert published_for({}) is None
     with pytest.raises(FddbenchError, match="no published table is called 'table88'. Did you mean 'table8'"):
         published_for({"published": "table88"})
+
+
+def test_what_is_printed_of_a_benchmark_comes_with_the_benchmark():
+    assert published_for({}, kinds.find("benchmark", "yaw_rate").member().published).table == 8
+    assert iterations_for(kinds.find("benchmark", "jet_engine").member().iterations).table == 1
+    assert iterations_for(SinglePlant.iterations) is published_for({}, SinglePlant.published) is None
+
+
+def test_the_report_names_no_benchmark():
+    for path in Path(page.__file__).parent.rglob("*.*"):
+        if path.suffix in {".py", ".j2", ".css"}:
+            for name in kinds.known("benchmark"):
+                assert name not in path.read_text(encoding="utf-8"), path

@@ -22,6 +22,5 @@ def test_every_missing_case_is_in_one_chunk(assembly, size, jobs, done):
     np.testing.assert_array_equal(together, left)
     assert set(left) | done == set(range(n_cases))
     assert all(len(chunk) <= size for chunk in chunks)
-    lengths = np.array([s.n_samples for s in assembly.plan.scenarios])
     for chunk in chunks:
-        assert len(set(lengths[assembly.plan.locate(chunk)[0]])) == 1
+        assert len(set(assembly.plan.n_samples(chunk))) == 1

@@ -29,7 +29,7 @@ def described(path: str | Path, overrides: Sequence[str] = ()) -> str:
     plan = assembly.plan
     if not llvm.available():
         return describe(plan, seconds_per_flight_step=_NUMPY_S, overhead_s=_NUMPY_CALL_S, chunk=CHUNK)
-    chunk = min(COMPILED_CHUNK, max(scenario.n_runs for scenario in plan.scenarios))
+    chunk = min(COMPILED_CHUNK, max(scenario.n_cases for scenario in plan.scenarios))
     bus, notes, overhead_s = assembly.loop.bus, [], 0.0
     for name, reason in Flyer(assembly).opaque.items():
         seconds = seconds_in_python(assembly.detectors[name], bus, chunk)

@@ -3,14 +3,15 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 
+from fddbench.campaign.addresses import Address
 from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
 from fddbench.errors import FddbenchError
 from fddbench.interfaces import Floats, Recording
 from fddbench.results.folder import provenance_of
+from fddbench.results.table import named
 from fddbench.runner.assembling import assemble
 from fddbench.runner.declared import declared_rows
 from fddbench.runner.replay import replay_campaign
@@ -19,7 +20,7 @@ from fddbench.runner.work import frozen
 __all__ = ["score", "signals"]
 
 
-def signals(source: Campaign | str | Path, scenario: str, cases: Sequence[int] | None = None) -> Recording:
+def signals(source: Campaign | str | Path, scenario: str, cases: Sequence[Address] | None = None) -> Recording:
     """Signals of flights of one scenario, flown again bit for bit.
 
     Parameters
@@ -28,8 +29,8 @@ def signals(source: Campaign | str | Path, scenario: str, cases: Sequence[int] |
         A campaign, its file or name, or a folder of results.
     scenario : str
         Name of the scenario.
-    cases : sequence of int, optional
-        Case numbers as in the rows; all of the scenario by default.
+    cases : sequence, optional
+        Names as in the column ``case``, ``"jam_a/3/0/17"``, or (point, level, run); all of the scenario by default.
 
     Returns
     -------
@@ -39,13 +40,13 @@ def signals(source: Campaign | str | Path, scenario: str, cases: Sequence[int] |
     Raises
     ------
     FddbenchError
-        There is no such scenario, or none of the flights can be flown.
+        There is no such scenario or case, or none of the flights can be flown.
     """
     campaign = _campaign(source)
     names = [entry.name for entry in campaign.scenarios]
     if scenario not in names:
         raise FddbenchError(f"campaign {campaign.name!r} has no scenario {scenario!r}; known: {', '.join(names)}")
-    chosen = None if cases is None else {scenario: np.asarray(cases, dtype=np.int64)}
+    chosen = None if cases is None else {scenario: list(cases)}
     for recording in replay_campaign(campaign, chosen, scenarios=[scenario]):
         return recording
     raise FddbenchError(f"none of these flights of {scenario!r} can be flown: they are infeasible")
@@ -53,11 +54,14 @@ def signals(source: Campaign | str | Path, scenario: str, cases: Sequence[int] |
 
 def score(
     source: Campaign | str | Path,
-    cases: Sequence[int],
-    declared: Floats,
+    cases: Sequence[str],
+    declared: Floats | None,
     *,
     alarm: Floats | None = None,
     residual: Floats | None = None,
+    estimate: Floats | None = None,
+    estimates: str = "sites",
+    watches: Sequence[str] | None = None,
     name: str = "own",
 ) -> pd.DataFrame:
     """Rows of one's own declarations, scored as those of a detector.
@@ -66,12 +70,19 @@ def score(
     ----------
     source : Campaign, str or Path
         A campaign, its file or name, or a folder of results.
-    cases : sequence of int
-        Case numbers of flights of one length.
-    declared : (n_time, n_sites, n_cases) array
-        1 where a site is declared at a sample, else 0; sites in the order of the benchmark.
+    cases : sequence of str
+        Names of flights of one length, ``"jam_a/3/0/17"``.
+    declared : (n_time, n_sites, n_cases) array or None
+        1 where a site is declared at a sample, else 0; sites in the order of the benchmark. None: something that only
+        detects, scored by its alarm.
     alarm, residual : (n_time, n_cases) arrays, optional
         Alarm (any site declared), and residual over threshold [-] (0).
+    estimate : (n_time, n_sites, n_cases) or (n_time, n_cases) array, optional
+        Size of the fault on each site, or with `estimates` the error of a voted signal, in its unit.
+    estimates : str
+        "sites", or the name of the voted signal.
+    watches : sequence of str, optional
+        Sites that are watched; all by default.
     name : str
         What the detector is called in the rows.
 
@@ -87,9 +98,10 @@ def score(
     """
     assembly = assemble(_campaign(source))
     table = declared_rows(
-        assembly, np.asarray(cases, dtype=np.int64), declared, alarm=alarm, residual=residual, name=name
-    )
-    frame: pd.DataFrame = table.to_pandas(types_mapper=pd.ArrowDtype)
+        assembly, assembly.plan.numbers(cases), declared, alarm=alarm, residual=residual, estimate=estimate,
+        estimates=estimates, watches=watches, name=name,
+    )  # fmt: skip
+    frame: pd.DataFrame = named(table).to_pandas(types_mapper=pd.ArrowDtype)
     return frame
 
 

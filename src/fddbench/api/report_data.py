@@ -35,7 +35,7 @@ def report_data(folder: Path) -> ReportData:
     campaign = frozen(folder, provenance["campaign_sha256"])
     content: dict[str, Any] = {name: getattr(campaign, name) for name in _SETTINGS} | dict(campaign.choices)
     content |= yaml.safe_load(campaign.text)
-    assembly = assemble(campaign)
+    assembly, bench = assemble(campaign), campaign.bench
     loads = {
         name: in_words(detector_load(detector, assembly.loop.bus, timed=False))
         for name, detector in assembly.detectors.items()
@@ -58,10 +58,13 @@ def report_data(folder: Path) -> ReportData:
             }
             for d in campaign.designs
         ],
-        recordings=list(replay(folder, chosen, seconds=_seconds(rows), signals=campaign.bench.shown)),
-        published=published_for(content),
-        iterations=iterations_for(content),
-        limits_from=campaign.bench.limits_from,
+        recordings=list(replay(folder, chosen, seconds=_seconds(rows), signals=bench.shown)),
+        published=published_for(content, getattr(bench, "published", "")),
+        iterations=iterations_for(getattr(bench, "iterations", "")),
+        envelope_axes=getattr(bench, "envelope_axes", ()),
+        choices=tuple(campaign.choices),
+        in_sample=campaign.in_sample,
+        limits_from=bench.limits_from,
     )
 
 

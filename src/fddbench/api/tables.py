@@ -5,10 +5,15 @@ from pathlib import Path
 
 import pandas as pd
 
-from fddbench.metrics.summary import NEEDS, summarize
+from fddbench.errors import FddbenchError
+from fddbench.metrics.alarms import ALARMS, summarize_alarms
+from fddbench.metrics.summary import NEEDS, SUMMARY, summarize
 from fddbench.results import table
+from fddbench.results.folder import provenance_of
+from fddbench.results.schema import CASE, EVENTS, rows_schema
+from fddbench.runner.work import frozen
 
-__all__ = ["load", "load_events", "summary"]
+__all__ = ["alarms", "columns", "load", "load_events", "summary"]
 
 
 def load(folder: str | Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
@@ -25,8 +30,39 @@ def load_events(folder: str | Path) -> pd.DataFrame:
 
 
 def summary(folder: str | Path) -> pd.DataFrame:
-    """One line per scenario and detector: counts, rates with exact intervals, detection times.
+    """One line per scenario and detector: outcomes, rates with their intervals, false alarms, detection times.
 
     The columns are those of `fddbench.metrics.summary.SUMMARY`.
     """
-    return summarize(table.load(folder, ["case", *NEEDS]))
+    return summarize(table.load(folder, ["case", *NEEDS]), in_sample=in_sample(folder))
+
+
+def alarms(folder: str | Path) -> pd.DataFrame:
+    """One line per detector: false alarms of its distinct flights; columns of `fddbench.metrics.alarms.ALARMS`."""
+    return summarize_alarms(table.load(folder, ["case", *NEEDS]), in_sample=in_sample(folder))
+
+
+def in_sample(folder: str | Path) -> tuple[str, ...]:
+    """Detectors of a folder of results whose designs were tuned on its flights."""
+    path = Path(folder)
+    return frozen(path, provenance_of(path)["campaign_sha256"]).in_sample
+
+
+def columns(table: str = "rows") -> dict[str, str]:
+    """What each column of a table means, by name.
+
+    Parameters
+    ----------
+    table : {"rows", "events", "summary", "alarms"}
+        As `load`, `load_events`, `summary` and `alarms` give them. Rows have besides a column ``p_<name>`` a
+        parameter, and ``f1_<key>`` what is drawn or swept of the first fault.
+
+    Examples
+    --------
+    >>> columns()["alarm_time_s"]
+    'from the onset to the first alarm raised since [s]; null: none'
+    """
+    known = {"rows": [CASE, *rows_schema(())], "events": [CASE, *EVENTS], "summary": SUMMARY, "alarms": ALARMS}
+    if table not in known:
+        raise FddbenchError(f"no table is called {table!r}; known: {', '.join(known)}")
+    return {field.name: field.metadata[b"about"].decode() for field in known[table]}

@@ -9,6 +9,7 @@ __all__ = [
     "DETECTOR_0",
     "DISPERSION",
     "DISTURBANCE",
+    "FAULT_NUMBERS_0",
     "FAULT_SLOTS",
     "FAULT_SLOT_0",
     "GUST",
@@ -49,6 +50,8 @@ SENSORS_MORE_0: Final = 512
 """Noise of the fourth redundant sensor and of the next ones, four of them a number: 512..575."""
 FAULT_SITES_MORE_0: Final = 1024
 """Fifth fault site and the next ones, four of them a number, slot after slot: 1024 + 32 (site // 4 - 1) + slot, to 3039."""
+FAULT_NUMBERS_0: Final = 3072
+"""Sizes and times of the first fault of a scenario that are drawn once a flight; the next faults follow: 3072..3103."""
 MOST_SITES: Final = 256
 """Fault sites of a benchmark, and redundant sensors, that have a number."""
 DETECTOR_0: Final = 4096

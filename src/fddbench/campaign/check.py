@@ -8,8 +8,11 @@ from typing import Any
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.plan import Plan, PlannedScenario
 from fddbench.campaign.rules.model import Dispersions, Distribution
+from fddbench.campaign.variation import at_levels
 from fddbench.designs.design import Design
 from fddbench.faults.specification import FaultSpecification
+from fddbench.faults.timing import latest_onset_s
+from fddbench.faults.varied import Varied, in_words
 
 __all__ = ["describe", "estimated_seconds"]
 
@@ -35,8 +38,9 @@ def estimated_seconds(
         Flights stepped together, and processes.
     """
     busy = sum(
-        scenario.n_samples * (scenario.n_runs * seconds_per_flight_step + ceil(scenario.n_runs / chunk) * overhead_s)
+        mean * (scenario.n_cases * seconds_per_flight_step + ceil(scenario.n_cases / chunk) * overhead_s)
         for scenario in plan.scenarios
+        for mean in [sum(scenario.samples) / len(scenario.samples)]
     )
     return busy / jobs
 
@@ -92,34 +96,55 @@ def _table(plan: Plan) -> Iterator[str]:
 
 
 def _begin_apart(scenario: PlannedScenario) -> bool:
-    return len({fault.onset_s for fault in scenario.faults}) > 1
+    onsets = [fault.onset_s for fault in scenario.faults]
+    return len(onsets) > 1 and (len(set(onsets)) > 1 or isinstance(onsets[0], Varied))
 
 
 def _ends_before_limit(scenario: PlannedScenario, sample_s: float) -> bool:
-    if scenario.k0 is None or scenario.limit_s is None:
+    if scenario.requirement_s is None:
         return False
-    return (scenario.n_samples - 1 - scenario.k0) * sample_s < scenario.limit_s - sample_s / 2.0
+    ends = zip(at_levels(scenario.faults), scenario.samples, strict=True)
+    return any(
+        (n_samples - 1) * sample_s - max(map(latest_onset_s, faults)) < scenario.requirement_s - sample_s / 2.0
+        for faults, n_samples in ends
+    )
 
 
 def _line(scenario: PlannedScenario) -> tuple[str, str, str, str, str, str]:
     faults = "; ".join(map(_fault, scenario.faults)) or "none"
-    limit = "-" if scenario.limit_s is None else f"{scenario.limit_s:g} s"
-    return scenario.name, scenario.manoeuvre, f"{scenario.n_runs:,}", f"{scenario.duration_s:g} s", limit, faults
+    return scenario.name, scenario.manoeuvre, f"{scenario.n_cases:,}", _length(scenario), _limit(scenario), faults
+
+
+def _length(scenario: PlannedScenario) -> str:
+    ends = sorted({scenario.durations_s[0], min(scenario.durations_s), max(scenario.durations_s)})
+    return " to ".join(f"{end_s:g}" for end_s in (ends[0], ends[-1])[: len(ends)]) + " s"
+
+
+def _limit(scenario: PlannedScenario) -> str:
+    """Time from the first onset within which all must be found; from the last one where the onsets vary."""
+    if scenario.requirement_s is None:
+        return "-"
+    if any(isinstance(time_s, Varied) for fault in scenario.faults for time_s in (fault.onset_s, fault.delay_s)):
+        return f"{scenario.requirement_s:g} s"
+    apart = max(map(latest_onset_s, scenario.faults)) - min(fault.onset_s for fault in scenario.faults)
+    return f"{round(apart, 9) + scenario.requirement_s:g} s"
 
 
 def _fault(fault: FaultSpecification) -> str:
-    sizes = fault.model_dump(exclude_defaults=True, exclude=set(_COMMON), by_alias=True)
-    words = [fault.kind, *(f"{key}={_short(value)}" for key, value in sizes.items())]
+    fields = [name for name in type(fault).model_fields if name not in _COMMON]
+    given = [(fault.key(name), getattr(fault, name), type(fault).model_fields[name].default) for name in fields]
+    words = [fault.kind, *(f"{key}={_short(value)}" for key, value, default in given if value != default)]
     words += [fault.mode] if fault.mode != "add" else []
-    words += [f"on {'+'.join(fault.sites)} at {fault.onset_s:g} s"]
+    words += [f"on {'+'.join(fault.sites)} at {in_words(fault.onset_s)} s"]
     words += [fault.correlation] if len(fault.sites) > 1 else []
-    words += [f"delayed by {fault.delay_s:g} s"] if fault.delay_s else []
-    words += [f"until {fault.end_s:g} s"] if fault.end_s is not None else []
+    words += [f"delayed by {in_words(fault.delay_s)} s"] if fault.delay_s else []
+    words += [f"until {in_words(fault.end_s)} s"] if fault.end_s is not None else []
     return " ".join(words)
 
 
 def _short(value: Any) -> str:
-    return f"{value:g}" if isinstance(value, float) else str(value)
+    text = in_words(value)
+    return f"({text})" if " " in text else text
 
 
 def _rest(plan: Plan) -> Iterator[str]:
@@ -163,7 +188,7 @@ def _design(design: Design) -> Iterator[str]:
 
 def _bill(plan: Plan, seconds: float, jobs: int) -> Iterator[str]:
     n = len(plan.campaign.designs)
-    flown = sum(scenario.n_runs * scenario.duration_s for scenario in plan.scenarios)
+    flown = sum(scenario.flown_s for scenario in plan.scenarios)
     disk = plan.n_rows * _BYTES_PER_ROW + _BYTES_PER_FOLDER
     rows = f"{plan.n_cases:,} cases x {n} detector{'s' if n > 1 else ''} = {plan.n_rows:,} rows"
     yield f"{rows}, {flown / 3600:.4g} h of flight"

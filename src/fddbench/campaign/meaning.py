@@ -78,6 +78,12 @@ class Campaign:
     beside: Mapping[str, bytes] = field(repr=False)
     sha256: str
 
+    @property
+    def in_sample(self) -> tuple[str, ...]:
+        """Designs that were tuned on flights of this campaign and seed: their scores here flatter them."""
+        own = (self.name, self.seed)
+        return tuple(d.name for d in self.designs if any((seen.campaign, seen.seed) == own for seen in d.tuned_on))
+
     def files(self) -> dict[str, bytes]:
         """Content by name of everything to keep in a folder of results so that the campaign can be read there again."""
         found = {"campaign.yaml": self.text.encode(), **self.beside}

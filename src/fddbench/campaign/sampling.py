@@ -1,4 +1,4 @@
-"""Parameters of a flight: a pure function of the seed and of the run's number."""
+"""Parameters of a flight: fixed by its point, drawn by its run, a pure function of the seed."""
 
 from collections.abc import Sequence
 
@@ -11,35 +11,28 @@ from fddbench.campaign.rules.model import Dispersions, Distribution, Purpose, Tr
 from fddbench.campaign.streams import flight_stream, name_word
 from fddbench.interfaces import Floats, Parameter
 
-__all__ = ["Runs", "count", "digits", "parameters"]
+__all__ = ["Runs", "digits", "parameters", "point_radices"]
 
 Runs = npt.NDArray[np.int64]
 
 
-def count(dispersions: Dispersions, *, monte_carlo_runs: int | None = None) -> tuple[int, ...]:
-    """Radix of every digit of a run's number, slowest first; their product is the number of runs.
+def point_radices(dispersions: Dispersions) -> tuple[int, ...]:
+    """Radix of every digit of a point's number, slowest first; their product is the number of points.
 
-    The digits are the parameters of the grid in alphabetical order, the sequence, and the Monte-Carlo draws, so that
-    the order of keys in a file means nothing. Exact for any size: nothing is expanded.
-
-    Parameters
-    ----------
-    monte_carlo_runs : int or None
-        Instead of ``monte_carlo.runs``.
+    The digits are the parameters of the grid in alphabetical order, and the sequence, so that the order of keys in a file
+    means nothing. Exact for any size: nothing is expanded.
 
     Examples
     --------
-    >>> count(Dispersions(grid={"h_ft": (0.0, 1e4), "mass_kg": (1.0, 2.0, 3.0)}), monte_carlo_runs=5)
-    (2, 3, 1, 5)
+    >>> point_radices(Dispersions(grid={"h_ft": (0.0, 1e4), "mass_kg": (1.0, 2.0, 3.0)}))
+    (2, 3, 1)
     """
     grid = tuple(len(dispersions.grid[name]) for name in sorted(dispersions.grid))
-    sequence = max((len(values) for values in dispersions.sequence.values()), default=1)
-    written = dispersions.monte_carlo.runs if dispersions.monte_carlo else 1
-    return (*grid, sequence, monte_carlo_runs or written)
+    return (*grid, max((len(values) for values in dispersions.sequence.values()), default=1))
 
 
 def digits(runs: Runs, radices: Sequence[int]) -> list[Runs]:
-    """Digits of run numbers in a mixed radix, slowest first; each (n,).
+    """Digits of numbers in a mixed radix, slowest first; each (n,).
 
     >>> [digit.tolist() for digit in digits(np.array([0, 1, 5]), (2, 3))]
     [[0, 0, 1], [0, 1, 2]]
@@ -58,13 +51,13 @@ def parameters(
     *,
     key: int,
     purpose: Purpose,
+    points: Runs,
     runs: Runs,
-    monte_carlo_runs: int | None = None,
 ) -> dict[str, Floats]:
     """Parameters of flights, true values, each (n,) in the unit of its name.
 
-    A parameter's draw has the counter (hash of its name, attempt, run, stream of the purpose): adding a parameter,
-    reordering keys or asking for other runs changes no draw.
+    A parameter's draw has the counter (hash of its name, attempt, run, stream of the purpose): adding a parameter or a
+    point, reordering keys or asking for other runs changes no draw, and a run has the same draws at every point.
 
     Parameters
     ----------
@@ -72,13 +65,11 @@ def parameters(
         All that a flight needs; those the campaign does not disperse have their default.
     key : int
         Seed of the campaign.
-    runs : (n,) integers
-        Numbers of the runs in their scenario.
-    monte_carlo_runs : int or None
-        Instead of ``monte_carlo.runs``.
+    points, runs : (n,) integers
+        Numbers of the points and of the Monte-Carlo draws.
     """
     runs = np.asarray(runs, dtype=np.int64)
-    *grid, sequence, _ = digits(runs, count(dispersions, monte_carlo_runs=monte_carlo_runs))
+    *grid, sequence = digits(points, point_radices(dispersions))
     found = {entry.name: np.full(len(runs), float(entry.default)) for entry in benchmark_parameters}
     for name, digit in zip(sorted(dispersions.grid), grid, strict=True):
         found[name] = np.asarray(dispersions.grid[name], dtype=float)[digit]

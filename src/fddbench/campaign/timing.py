@@ -2,14 +2,13 @@
 
 from collections.abc import Sequence
 
-from fddbench.faults.timing import last_onset_s, samples
+from fddbench.faults.timing import latest_onset_s
 from fddbench.interfaces import Fault, Plant, Site
 from fddbench.interfaces.site import limit_s
 
-__all__ = ["faulty_sites", "first_faulty_sample", "flight_limit_s", "flight_s", "on_clock", "requirement_s"]
+__all__ = ["faulty_sites", "flight_s", "requirement_s"]
 
 AFTER_LIMIT_S = 5.0
-_CLOCK_TOLERANCE_S = 1e-9
 
 
 def faulty_sites(faults: Sequence[Fault], sites: Sequence[Site]) -> tuple[Site, ...]:
@@ -29,20 +28,12 @@ def requirement_s(faults: Sequence[Fault], sites: Sequence[Site], *, override_s:
     return limit_s(faulty_sites(faults, sites)) if override_s is None else override_s
 
 
-def flight_limit_s(faults: Sequence[Fault], sites: Sequence[Site], *, override_s: float | None) -> float:
-    """Time from the first onset within which all faulty sites of a flight must be found [s].
-
-    The requirement, the scenario's or the benchmark's, runs from when the last site turns faulty: before that, nobody can
-    know it.
-    """
-    own = requirement_s(faults, sites, override_s=override_s)
-    return round(max(map(last_onset_s, faults)) - min(fault.onset_s for fault in faults), 9) + own
-
-
 def flight_s(
     faults: Sequence[Fault], manoeuvre: str, plant: Plant, *, duration_s: float | None, override_s: float | None
 ) -> float:
     """Length of a flight [s]: as given, else long enough to find the last fault, else that of the manoeuvre.
+
+    Where an onset is drawn, the latest that can be drawn counts, so all runs are equally long.
 
     Parameters
     ----------
@@ -56,14 +47,4 @@ def flight_s(
     if not faults:
         return plant.manoeuvres[manoeuvre]
     limit = requirement_s(faults, plant.sites, override_s=override_s)
-    return max(map(last_onset_s, faults)) + limit + AFTER_LIMIT_S
-
-
-def on_clock(time_s: float, sample_s: float) -> bool:
-    """Whether a time falls on a sample, within 1e-9 s."""
-    return abs(time_s - samples(time_s, sample_s) * sample_s) <= _CLOCK_TOLERANCE_S
-
-
-def first_faulty_sample(faults: Sequence[Fault], sample_s: float) -> int | None:
-    """First faulty sample k0, or None in a healthy flight."""
-    return min((samples(fault.onset_s, sample_s) for fault in faults), default=None)
+    return max(map(latest_onset_s, faults)) + limit + AFTER_LIMIT_S

@@ -41,21 +41,23 @@ def run(args: argparse.Namespace) -> int:
             file=sys.stderr,
         )
         return 130
-    _summary(folder)
+    _summary(folder, wide=args.wide)
     again = f", {report.continued} found done" if report.continued else ""
     print(f"\n{report.flights} flights flown{again} in {report.wall_s:.1f} s; results in {folder}")
     print(f"next: fddbench report {folder}")
     return 1 if report.failed_rows else 0
 
 
-def _summary(folder: Path) -> None:
+def _summary(folder: Path, *, wide: bool) -> None:
     """Print the summary table of a folder of results."""
+    from fddbench.api.tables import in_sample
+    from fddbench.metrics.alarms import summarize_alarms
     from fddbench.metrics.summary import NEEDS, summarize
     from fddbench.reporting.terminal import to_text
     from fddbench.results.table import load
 
-    rows = load(folder, ["case", "reason", *NEEDS])
-    print(to_text(summarize(rows)))
+    rows, own = load(folder, ["case", "reason", *NEEDS]), in_sample(folder)
+    print(to_text(summarize(rows, in_sample=own), summarize_alarms(rows, in_sample=own), wide=wide))
     failed = rows[~rows["status"].isin(["ok", "infeasible"])]
     for (detector, status, reason), group in failed.groupby(["detector", "status", "reason"], dropna=False):
         cases = ", ".join(str(case) for case in group["case"].head(3))
@@ -72,11 +74,12 @@ def report(args: argparse.Namespace) -> int:
 
 def scores(args: argparse.Namespace) -> int:
     """Print the scores of a folder of results as YAML, to keep under version control."""
+    from fddbench.api.tables import in_sample
     from fddbench.reporting.scores import scores_text
     from fddbench.results.folder import provenance_of
     from fddbench.results.table import load
 
-    print(scores_text(load(args.folder), provenance_of(args.folder)), end="")
+    print(scores_text(load(args.folder), provenance_of(args.folder), in_sample(args.folder)), end="")
     return 0
 
 

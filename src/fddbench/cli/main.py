@@ -38,6 +38,7 @@ def parser() -> argparse.ArgumentParser:
         help="compiled where llvmlite is installed (auto), always, or never; no part of any result",
     )  # fmt: skip
     run.add_argument("--quiet", action="store_true", help="no progress")
+    run.add_argument("--wide", action="store_true", help="every column of the table, as wide as it is")
 
     report = _add(subs, "report", commands.report)
     report.add_argument("folder", type=Path, metavar="DIR", help="folder of results")

@@ -168,9 +168,8 @@ def _gains(filter_: Filter, recipe: Recipe) -> dict[str, Any]:
         filter_ = _with_a_state(filter_)
     names = {"A": "Ak", "B_y": "Bky", "B_u": "Bku", "C": "Ck", "D_y": "Dky", "D_u": "Dku"}
     gains: dict[str, Any] = {name: getattr(filter_, own).tolist() for name, own in names.items()}
-    return gains | {
-        "window_s": recipe.window_s, "confirm_s": recipe.confirm_s, "thresholds": [1.0] * len(filter_.Ck),
-    }  # fmt: skip
+    gains |= {"window_s": recipe.window_s, "confirm_s": recipe.confirm_s, "thresholds": [1.0] * len(filter_.Ck)}
+    return gains | ({"estimates_faults": True} if _speaks_plainly(recipe) else {})
 
 
 def _with_a_state(filter_: Filter) -> Filter:
@@ -178,3 +177,14 @@ def _with_a_state(filter_: Filter) -> Filter:
     n_r, n_y, n_u = len(filter_.Dky), filter_.Dky.shape[1], filter_.Dku.shape[1]
     idle = {"Ak": -np.eye(1), "Bky": np.zeros((1, n_y)), "Bku": np.zeros((1, n_u)), "Ck": np.zeros((n_r, 1))}
     return replace(filter_, **idle)
+
+
+def _speaks_plainly(recipe: Recipe) -> bool:
+    """Whether residual i is made to be fault i itself: an inverse, or a reference that is the identity."""
+    if recipe.method == "exact_inverse":
+        return True
+    reference = recipe.reference.system() if recipe.reference else None
+    identity = reference is None or (
+        not reference.order and bool(np.array_equal(reference.D, np.eye(len(reference.D))))
+    )
+    return identity and recipe.method == "fixed_reference"

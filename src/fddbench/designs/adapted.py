@@ -8,7 +8,7 @@ import numpy as np
 
 from fddbench.blocks.block import NO_DRAWS, NOTHING
 from fddbench.blocks.drawn import Draws
-from fddbench.blocks.layout import Layout, Nothing, Rows
+from fddbench.blocks.layout import Layout, Nothing, Row, Rows
 from fddbench.blocks.linear import total
 from fddbench.errors import DesignError
 from fddbench.interfaces import Bus, Verdict
@@ -37,6 +37,7 @@ class Adapted:
         self.recorded: tuple[str, ...] = detector.recorded
         self.watches: tuple[str, ...] = tuple(getattr(detector, "watches", bus.names))
         self.isolates: bool = bool(getattr(detector, "isolates", True))
+        self.estimates: str | None = getattr(detector, "estimates", None)
 
     def start(self, c: Nothing) -> Any:
         """State before the first sample."""
@@ -54,7 +55,7 @@ class Adapted:
         alarm = verdict.alarm
         if alarm is None:
             alarm = np.where(total(declared * 1.0) > 0.0, 1.0, 0.0)
-        return after, replace(verdict, declared=declared, alarm=alarm)
+        return after, replace(verdict, declared=declared, alarm=alarm, estimate=self._sizes(verdict))
 
     def _check(self, verdict: Any) -> None:
         """Refuse what is no verdict of this detector.
@@ -76,6 +77,14 @@ class Adapted:
             raise DesignError("a detector with isolates = False gives an alarm and declares no sites (declared=None)")
         if verdict.alarm is not None:
             shapes["alarm"] = (verdict.alarm, n_cases)
+        if (verdict.estimate is None) != (self.estimates is None):
+            raise DesignError(
+                "a detector that gives an estimate says of what, and one that says so gives it: estimates = 'sites', the name "
+                f"of a voted signal, or None; it says {self.estimates!r}"
+            )
+        if self.estimates is not None:
+            of_sites = (len(self.watches),) if self.estimates == "sites" else ()
+            shapes["estimate"] = (verdict.estimate, (*of_sites, *n_cases))
         wrong = [
             f"{name} of shape {need}, got {np.shape(value)}"
             for name, (value, need) in shapes.items()
@@ -90,10 +99,17 @@ class Adapted:
 
     def _spread(self, verdict: Verdict) -> Rows:
         """Declared sites of the whole benchmark: nothing where the detector does not watch."""
-        nothing = np.zeros_like(verdict.residual)
         if verdict.declared is None:
-            return np.stack([nothing] * len(self.bus.sites))
+            return np.stack([np.zeros_like(verdict.residual)] * len(self.bus.sites))
+        return self._everywhere(verdict.declared, verdict.residual)
+
+    def _sizes(self, verdict: Verdict) -> Rows:
+        """Estimate of every site of the benchmark, or of the voted signal; None without one."""
+        return self._everywhere(verdict.estimate, verdict.residual) if self.estimates == "sites" else verdict.estimate
+
+    def _everywhere(self, watched: Rows, like: Row) -> Rows:
+        """Rows of every site of the benchmark, 0 where the detector does not watch."""
         if self.watches == self.bus.names:
-            return verdict.declared
-        rows = dict(zip(self.watches, verdict.declared, strict=True))
-        return np.stack([rows[name] * 1.0 if name in rows else nothing for name in self.bus.names])
+            return watched
+        rows = dict(zip(self.watches, watched, strict=True))
+        return np.stack([rows[name] * 1.0 if name in rows else np.zeros_like(like) for name in self.bus.names])

@@ -1,21 +1,42 @@
 """Confirmation times: how long a flag must stand before it counts."""
 
-from math import ceil
-
 import numpy as np
 
 from fddbench.blocks.layout import Rows
+from fddbench.clock import misfit
+from fddbench.clock import samples as whole
+from fddbench.errors import DesignError
 
 __all__ = ["held_samples", "samples"]
 
 
-def samples(time_s: float, sample_s: float) -> float:
-    """Confirmation time in whole samples, never shorter than asked.
+def samples(name: str, time_s: float, sample_s: float, *, least: int = 0) -> float:
+    """Time of a design in whole samples.
 
-    >>> samples(0.1, 0.01), samples(0.1, 0.04)
-    (10.0, 3.0)
+    Parameters
+    ----------
+    name : str
+        Key of the time in the design, for the message.
+    least : int
+        Fewest samples that it may last.
+
+    Raises
+    ------
+    DesignError
+        The time does not fit the clock: the design was made for another.
+
+    Examples
+    --------
+    >>> samples("confirm_two_s", 0.1, 0.01)
+    10.0
     """
-    return float(ceil(time_s / sample_s - 1e-9))
+    wrong = misfit(time_s, sample_s, least=least)
+    if wrong:
+        raise DesignError(
+            f"{name} {wrong}. This design was made for another clock: copy it with times that fit and tune it again, or "
+            "change sample_s"
+        )
+    return float(whole(time_s, sample_s))
 
 
 def held_samples(count: Rows, flag: Rows) -> Rows:

@@ -41,6 +41,8 @@ class HinfFilterGains(BaseModel):
         Largest |mean| of each residual that is no alarm, in the unit of the residual.
     confirm_s : float
         How long a mean must stay beyond its threshold [s].
+    estimates_faults : bool
+        Whether residual i is made to be fault i itself (T_ref = I), so that its mean estimates the size.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -54,6 +56,7 @@ class HinfFilterGains(BaseModel):
     window_s: Positive
     thresholds: Annotated[tuple[Positive, ...], Field(min_length=1)]
     confirm_s: NonNegative
+    estimates_faults: bool = False
 
 
 @record
@@ -91,9 +94,10 @@ class HinfFilter:
         system = StateSpace(g["A"], np.hstack([g["B_y"], g["B_u"]]), g["C"], np.hstack([g["D_y"], g["D_u"]]))
         self.filter = DiscreteLti.of(system, bus.sample_s)
         self.n_residuals, self.thresholds = len(gains.thresholds), column(gains.thresholds)
-        self.window = max(1, round(gains.window_s / bus.sample_s))
-        self.confirm_samples = samples(gains.confirm_s, bus.sample_s)
+        self.window = int(samples("window_s", gains.window_s, bus.sample_s, least=1))
+        self.confirm_samples = samples("confirm_s", gains.confirm_s, bus.sample_s)
         n, self.watches = self.n_residuals, _watched(bus)
+        self.estimates = "sites" if gains.estimates_faults else None
         self.evaluated = tuple(f"mean_{i + 1}" for i in range(n))
         self.recorded = tuple(f"{name}_{i + 1}" for i in range(n) for name in ("mean", "threshold"))
         self.states = Layout(FilterState(filter=len(g["A"]), window=n * self.window, held_samples=n, declared=n))
@@ -134,7 +138,8 @@ class HinfFilter:
         after = FilterState(filter=filtered, window=window, held_samples=held, declared=declared)
         shown = {name: mean[i] for i, name in enumerate(self.evaluated)}
         shown |= {f"threshold_{i + 1}": np.zeros_like(mean[i]) + self.thresholds[i] for i in range(n_r)}
-        return after, Verdict(declared, largest(np.abs(mean) / self.thresholds), signals=shown)
+        sizes = mean if self.estimates else None
+        return after, Verdict(declared, largest(np.abs(mean) / self.thresholds), signals=shown, estimate=sizes)
 
 
 def _watched(bus: Bus) -> tuple[str, ...]:

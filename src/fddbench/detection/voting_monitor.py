@@ -62,7 +62,7 @@ class VotingMonitor:
 
     def __init__(self, gains: VotingMonitorGains, bus: Bus) -> None:
         self.gains, self.watches = gains, bus.redundant("r_deg_s")
-        self.confirm_samples = samples(gains.confirm_one_s, bus.sample_s)
+        self.confirm_samples = samples("confirm_one_s", gains.confirm_one_s, bus.sample_s)
         self.states = Layout(MonitorState(held_samples=ROW, n_declared=ROW, declared=len(self.watches)))
 
     @classmethod

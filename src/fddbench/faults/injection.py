@@ -1,17 +1,21 @@
-"""All faults on the sites of one signal, slot after slot: data rows decide kind, size and time of each flight.
+"""All faults on the sites of one signal, stage after stage: data rows decide kind, size and time of each flight.
 
-A slot without a fault, and a fault of size zero, leave every bit of the healthy signal as it was.
+On each site the faults act in the order of its first faulty samples (`fddbench.faults.order`), each on what the earlier ones
+made; the stops of the site act last, at every sample. A slot without a fault, and a fault of size zero, leave every bit of
+the healthy signal as it was.
 """
 
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from fddbench.blocks.drawn import Draws
 from fddbench.blocks.layout import Layout, Nothing, Row, Rows, filled, leaves, record
+from fddbench.faults.order import orders_of, pattern_of, place, stages
 from fddbench.faults.slot import Slot, SlotConstants, SlotState
-from fddbench.faults.timing import first_samples, last_sample
+from fddbench.faults.timing import NEVER, first_samples, last_sample
 from fddbench.interfaces import Fault, FlightFaults, Floats, Site
 
 __all__ = ["SignalFaults", "SignalFaultsState"]
@@ -35,7 +39,7 @@ class SignalFaults:
     signal : str
         The signal whose sites these are, in the order of its rows.
     faults : sequence of sequences of Fault
-        Faults of every scenario that will fly; a kind that none of them uses here costs nothing.
+        Faults of every scenario that will fly, as they are written; a kind that none of them uses here costs nothing.
     sample_s : float
         Sample time [s].
     """
@@ -45,8 +49,9 @@ class SignalFaults:
         self.sites = tuple(sites[j] for j in positions)
         self.rows = [site.row for site in self.sites]
         self.positions, self.sample_s = tuple(positions), sample_s
-        self.numbers = self._used(faults)
-        self.slots = tuple(self._slot(j, faults) for j in self.numbers)
+        patterns = [pattern_of(one, site.name, sample_s) for one in faults for site in self.sites]
+        self.lines = stages([pattern for pattern in patterns if pattern])
+        self.slots = tuple(self._slot(line, faults) for line in self.lines)
         self.freezes = any(slot.freezes for slot in self.slots)
         self.states = Layout(
             SignalFaultsState(
@@ -59,10 +64,6 @@ class SignalFaults:
 
     def _here(self, fault: Fault) -> bool:
         return any(site.name in fault.sites for site in self.sites)
-
-    def _used(self, faults: Sequence[Sequence[Fault]]) -> tuple[int, ...]:
-        """Numbers of the slots in which some scenario has a fault on these sites."""
-        return tuple(sorted({j for one in faults for j, fault in enumerate(one) if self._here(fault)}))
 
     def _slot(self, number: int, faults: Sequence[Sequence[Fault]]) -> Slot:
         here = [one[number] for one in faults if number < len(one) and self._here(one[number])]
@@ -83,17 +84,24 @@ class SignalFaults:
     def _packed(self, faults: Sequence[Fault], uniform: Floats) -> Floats:
         """Constants of flights of one scenario, (n_rows, n_cases)."""
         n_cases = uniform.shape[2]
+        acts = self._acts(faults, n_cases)
         found = []
-        for number, slot in zip(self.numbers, self.slots, strict=True):
-            fault = faults[number] if number < len(faults) else None
-            here = fault is not None and self._here(fault)
-            own = self._constants(slot, fault, uniform[number]) if fault is not None and here else slot.nothing()
+        for stage, (line, slot) in enumerate(zip(self.lines, self.slots, strict=True)):
+            fault = faults[line] if acts[:, stage].any() else None
+            own = slot.nothing() if fault is None else self._constants(slot, fault, uniform[line], acts[:, stage] > 0.0)
             found.append(slot.constants.pack(slot.constants.spread(own, n_cases), n_cases))
         packed: Floats = np.concatenate([*found, np.zeros((0, n_cases))])
         return packed
 
-    def _constants(self, slot: Slot, fault: Fault, uniform: Floats) -> SlotConstants:
-        """Constants of a fault on the sites of this signal; what it does not touch stays as without it."""
+    def _acts(self, faults: Sequence[Fault], n_cases: int) -> Floats:
+        """1 where the fault of a stage acts on a site, (n_sites, n_stages, n_cases)."""
+        found = np.zeros((len(self.sites), len(self.lines), n_cases))
+        for row, site in enumerate(self.sites):
+            found[row] = place(orders_of(faults, site.name, self.sample_s, n_cases), self.lines)
+        return found
+
+    def _constants(self, slot: Slot, fault: Fault, uniform: Floats, acts: npt.NDArray[np.bool_]) -> SlotConstants:
+        """Constants of a fault where it acts in a slot, (n_sites, n_cases); the rest stays as without it."""
         kind, names = slot.kinds.index(type(fault)), [site.name for site in self.sites]
         own = uniform if fault.correlation == "independent" else np.broadcast_to(uniform[:1], uniform.shape)
         sizes = [
@@ -102,15 +110,16 @@ class SignalFaults:
         ]
         signs = {s: -1.0 if fault.correlation == "opposite" and nth % 2 else 1.0 for nth, s in enumerate(fault.sites)}
         held = [fault.held(site) if site.name in fault.sites else 0.0 for site in self.sites]
-        kinds = list(slot.nothing().kinds)
-        kinds[kind] = _stacked(slot.blocks[kind].constants, sizes, uniform.shape[1])
+        n_cases, kinds = uniform.shape[1], list(slot.nothing().kinds)
+        kinds[kind] = _stacked(slot.blocks[kind].constants, sizes, n_cases)
+        first = _rows(first_samples(fault, names, self.sample_s), n_cases)
         return SlotConstants(
-            first=_column(first_samples(fault, names, self.sample_s)),
+            first=np.where(acts, first, NEVER),
             last=last_sample(fault, self.sample_s),
-            sign=_column([signs.get(name, 0.0) for name in names]),
+            sign=_rows([signs.get(name, 0.0) for name in names], n_cases),
             stands=float(fault.mode == "replace"),
             freezes=float(fault.freeze),
-            held=_column(held),
+            held=_rows(held, n_cases),
             independent=float(fault.correlation == "independent"),
             kind=float(kind),
             kinds=tuple(kinds),
@@ -126,17 +135,27 @@ class SignalFaults:
     ) -> tuple[SignalFaultsState, Rows]:
         """State at the next sample, and the faulty signal, (n_sites, n_cases), of the healthy one; `sample` is its number."""
         signal, kept = healthy, []
-        # a freeze at the first sample holds that sample's own reading
-        before = np.where(sample > 0.0, x.before, healthy) if self.freezes else healthy
         for slot, own, constants, numbers in zip(self.slots, x.slots, c, n, strict=True):
-            after, signal = slot.step(own, constants, numbers, signal, before, sample)
+            after, signal = slot.step(own, constants, numbers, signal, x.before, sample)
             kept.append(after)
+        signal = self._within_stops(signal)
         return SignalFaultsState(before=signal if self.freezes else Nothing(), slots=tuple(kept)), signal
 
+    def _within_stops(self, signal: Rows) -> Rows:
+        """The signal within the stops of its sites; a site without any is left alone."""
+        if not any(np.isfinite(site.stops).any() for site in self.sites):
+            return signal
+        rows = []
+        for row, site in zip(signal, self.sites, strict=True):
+            low, high = site.stops
+            row = np.maximum(row, low) if np.isfinite(low) else row
+            rows.append(np.minimum(row, high) if np.isfinite(high) else row)
+        return np.stack(rows)
 
-def _column(values: Sequence[float]) -> Floats:
-    """One number a site, (n_sites, 1)."""
-    return np.array(values, dtype=np.float64)[:, np.newaxis]
+
+def _rows(values: Sequence[Any], n_cases: int) -> Floats:
+    """A number or an (n_cases,) array a site as (n_sites, n_cases)."""
+    return np.array([np.broadcast_to(value, (n_cases,)) for value in values], dtype=np.float64)
 
 
 def _stacked(layout: Layout[Any], sizes: Sequence[Any], n_cases: int) -> Any:

@@ -6,7 +6,7 @@ import numpy as np
 
 from fddbench.blocks.layout import Layout, Rows, record
 from fddbench.faults.profile import constants_of
-from fddbench.faults.specification import Positive, WithAmplitude
+from fddbench.faults.specification import Time, WithAmplitude
 from fddbench.interfaces import Floats, Instant, Site
 
 __all__ = ["Nrz"]
@@ -28,7 +28,7 @@ class BitState:
 
 
 class NrzBlock:
-    """Plus or minus a size, drawn anew at every bit; a bit lasts whole samples, at least one."""
+    """Plus or minus a size, drawn anew at every bit; a bit lasts whole samples."""
 
     def __init__(self, n_sites: int, sample_s: float) -> None:
         self.sample_s = sample_s
@@ -42,6 +42,7 @@ class NrzBlock:
 
     def step(self, x: BitState, c: Bits, reading: Rows, now: Instant) -> tuple[BitState, Rows]:
         """What the sites show."""
+        # at least one: where the fault is not, its constants are zero
         length = np.maximum(np.rint(c.bit_s / self.sample_s), 1.0)
         begins = now.since_samples - length * np.floor(now.since_samples / length) == 0.0
         bit = np.where(begins, np.where(now.random >= 0.0, 1.0, -1.0), x.bit)
@@ -56,14 +57,15 @@ class Nrz(WithAmplitude):
     amplitude_percent, amplitude : float
         Size of a bit, of the admissible range [%] or in the unit of the sites; give one.
     bit_s : float
-        Length of a bit [s]; our choice of 0.05 s where the paper is silent.
+        Length of a bit, a whole number of samples, at least one [s]; our choice of 0.05 s where the paper is silent.
     """
 
     about: ClassVar[str] = "random plus or minus a size, bit by bit"
     random: ClassVar[bool] = True
+    lengths: ClassVar[tuple[str, ...]] = ("bit_s",)
 
     kind: Literal["nrz"]
-    bit_s: Positive = 0.05
+    bit_s: Time = 0.05
 
     def numbers(self, site: Site, uniform: Floats) -> Bits:
         """Bit stream of the given size."""

@@ -1,5 +1,6 @@
 """Oscillatory failure: a sine on the sensor."""
 
+from collections.abc import Iterator
 from typing import ClassVar, Literal, Self
 
 import numpy as np
@@ -8,6 +9,7 @@ from pydantic import model_validator
 from fddbench.blocks.functions import sin
 from fddbench.blocks.layout import Rows, record
 from fddbench.faults.specification import Finite, WithAmplitude, one_of
+from fddbench.faults.varied import bounds, in_words
 from fddbench.interfaces import Floats, Site
 
 __all__ = ["Oscillatory"]
@@ -34,7 +36,7 @@ class Oscillatory(WithAmplitude):
     amplitude_percent, amplitude : float
         Half of the peak-to-peak excursion, of the admissible range [%] or in the unit of the sites; give one.
     frequency_hz, frequency_rad_s : float
-        Frequency; give one.
+        Frequency, above 0 and below half the sampling rate; give one.
     phase_rad : float
         Phase at the onset [rad].
     phase : "uniform"
@@ -62,5 +64,19 @@ class Oscillatory(WithAmplitude):
         return Sine(
             amplitude=self.size("amplitude", site),
             frequency_rad_s=one_of(frequency_hz=turns, frequency_rad_s=self.frequency_rad_s),
-            phase_rad=2.0 * np.pi * uniform if self.phase else self.phase_rad or 0.0,
+            phase_rad=2.0 * np.pi * uniform if self.phase else 0.0 if self.phase_rad is None else self.phase_rad,
         )
+
+    def unfit(self, sample_s: float) -> Iterator[tuple[str, str]]:
+        """What the clock cannot show: times between samples, and sines that would look like slower ones or like none."""
+        yield from super().unfit(sample_s)
+        for key, limit, unit in (("frequency_hz", 0.5, "Hz"), ("frequency_rad_s", np.pi, "rad/s")):
+            value, most = getattr(self, key), limit / sample_s
+            if value is not None and not (bounds(value)[0] > 0.0 and bounds(value)[1] < most):
+                yield (
+                    key,
+                    (
+                        f"{key} must lie above 0 and below {most:.6g} {unit}, half the sampling rate at {sample_s:g} s, got "
+                        f"{in_words(value)}: a faster sine looks like a slower one; lower it or shorten sample_s"
+                    ),
+                )

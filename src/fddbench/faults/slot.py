@@ -1,4 +1,4 @@
-"""One fault slot on the sites of one signal: the kinds that a campaign uses there, and what is common to all of them."""
+"""One stage of faults on the sites of one signal: a line of the scenarios, the kinds that a campaign uses there."""
 
 from dataclasses import replace
 from typing import Any
@@ -52,6 +52,9 @@ class Numbers:
 class Slot:
     """A slot mixes kinds: each flight has one of them, or none; what another kind computes there is not used.
 
+    Several slots may stand for one line, see `fddbench.faults.order`; they draw the same numbers and a site's fault acts in
+    one of them.
+
     Parameters
     ----------
     slot : int
@@ -92,7 +95,10 @@ class Slot:
     def step(
         self, x: SlotState, c: SlotConstants, n: Any, signal: Rows, before: Rows, sample: Row
     ) -> tuple[SlotState, Rows]:
-        """State at the next sample, and the signal with this fault, (n_sites, n_cases); `before` was read last."""
+        """State at the next sample, and the signal with this fault, (n_sites, n_cases).
+
+        `before` is what the sites showed at the sample before, with all faults; used only where something freezes.
+        """
         since = sample - c.first
         active = (since >= 0.0) & (sample <= c.last)
         now = Instant(
@@ -102,11 +108,17 @@ class Slot:
             sign=c.sign,
             random=np.where(c.independent > 0.0, np.stack(n.own), n.common) if self.random else None,
         )
-        frozen = np.where(since == 0.0, before, x.frozen) if self.freezes else x.frozen
+        frozen = self._frozen(x, signal, before, since, sample)
         stands = np.where(c.freezes > 0.0, frozen, c.held) if self.freezes else c.held
         reading = np.where(c.stands > 0.0, stands, signal)
         kept, shown = self._kinds(x, c, reading, now)
         return SlotState(frozen=frozen, kinds=kept), np.where(active, shown, signal)
+
+    def _frozen(self, x: SlotState, signal: Rows, before: Rows, since: Rows, sample: Row) -> Rows:
+        """Where a frozen site stands: at its last reading; one that freezes at the first sample at that sample's own."""
+        if not self.freezes:
+            return x.frozen
+        return np.where(since == 0.0, np.where(sample > 0.0, before, signal), x.frozen)
 
     def _kinds(self, x: SlotState, c: SlotConstants, reading: Rows, now: Instant) -> tuple[tuple[Part, ...], Rows]:
         """What every kind keeps, and what that of the flight shows."""

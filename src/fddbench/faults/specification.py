@@ -5,6 +5,7 @@ its sites, ``amplitude_deg_s`` or plain ``amplitude``: `FaultSpecification.in_un
 key of another unit is an unknown key.
 """
 
+from collections.abc import Iterator, Mapping
 from functools import cache
 from typing import Annotated, Any, ClassVar, Literal, Self
 
@@ -13,14 +14,18 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validat
 
 from fddbench.errors import FddbenchError
 from fddbench.faults.profile import Profile, ProfileBlock
+from fddbench.faults.timing import misfits
+from fddbench.faults.varied import Number, Varied
 from fddbench.interfaces import FaultBlock, Floats, Site
 from fddbench.units import UNITS, unit
 
-__all__ = ["FaultSpecification", "Finite", "NonNegative", "Positive", "WithAmplitude", "one_of"]
+__all__ = ["FaultSpecification", "Finite", "NonNegative", "Positive", "Time", "WithAmplitude", "one_of"]
 
-Finite = Annotated[float, Field(allow_inf_nan=False)]
-NonNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
-Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
+# typed Any because in flight each is a number or an (n_cases,) array, and as written it may be `Varied`
+Finite = Annotated[Any, Number()]
+NonNegative = Annotated[Any, Number(ge=0.0)]
+Positive = Annotated[Any, Number(gt=0.0)]
+Time = Annotated[Any, Number(ge=0.0, time=True)]
 
 _PERCENT = {"rate": "rate_percent_s"}
 """Keys of sizes in percent that are not called ``<size>_percent``."""
@@ -50,7 +55,8 @@ def _distinct(sites: tuple[str, ...]) -> tuple[str, ...]:
 class FaultSpecification(BaseModel):
     """A fault as a campaign writes it; each kind adds its sizes and says what they do to the signal of a site.
 
-    A kind either has a `profile` (what is added to the signal), or a `block` of its own.
+    A kind either has a `profile` (what is added to the signal), or a `block` of its own. Any number may be `Varied`; what
+    flies is a copy with numbers, or (n_cases,) arrays of them, see `flown`.
 
     Attributes
     ----------
@@ -76,28 +82,31 @@ class FaultSpecification(BaseModel):
     """Whether the kind draws a normal number at every sample."""
     profile: ClassVar[type[Profile] | None] = None
     """What is added to the signal, for kinds that need no block of their own."""
+    lengths: ClassVar[tuple[str, ...]] = ()
+    """Keys of times besides those that all faults have, which last at least a sample."""
 
     kind: str
     mode: Literal["add", "replace"] = "add"
     sites: Annotated[tuple[str, ...], Field(min_length=1), AfterValidator(_distinct)]
-    onset_s: NonNegative
-    end_s: NonNegative | None = None
+    onset_s: Time
+    end_s: Time | None = None
     correlation: Literal["identical", "independent", "opposite"] = "identical"
-    delay_s: NonNegative = 0.0
+    delay_s: Time = 0.0
     freeze: bool = False
     hold_value: Finite | None = None
     hold_value_percent: Finite | None = None
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
-        if self.end_s is not None and self.end_s <= self.onset_s:
+        plain = not (isinstance(self.end_s, Varied) or isinstance(self.onset_s, Varied))
+        if plain and self.end_s is not None and self.end_s <= self.onset_s:
             raise ValueError(f"end_s must lie after onset_s = {self.onset_s}, got {self.end_s}")
         held = [self.freeze, self.hold_value is not None, self.hold_value_percent is not None]
         if any(held) and self.mode == "add":
             raise ValueError("freeze and hold_value_* need mode: replace")
         if sum(held) > 1:
             raise ValueError(f"give one of freeze, {self.key('hold_value')}, hold_value_percent")
-        self.numbers(_ANY_SITE, np.full(1, 0.5))
+        self.flown({name: value.example for name, value in self.varied.items()}).numbers(_ANY_SITE, np.full(1, 0.5))
         return self
 
     @classmethod
@@ -110,6 +119,29 @@ class FaultSpecification(BaseModel):
             `fddbench.units` has no such unit.
         """
         return _in_unit(cls, name)  # type: ignore[return-value]
+
+    @property
+    def times(self) -> tuple[str, ...]:
+        """Fields that are times on the clock."""
+        return ("onset_s", "end_s", "delay_s", *self.lengths)
+
+    @property
+    def varied(self) -> dict[str, Varied]:
+        """What differs from flight to flight by the names of its fields, in the alphabetical order of the keys."""
+        found = {name: getattr(self, name) for name in sorted(type(self).model_fields, key=self.key)}
+        return {name: value for name, value in found.items() if isinstance(value, Varied)}
+
+    def flown(self, values: Mapping[str, Any]) -> Self:
+        """Copy with numbers or (n_cases,) arrays in place of what varies, by the names of the fields."""
+        return self.model_copy(update=dict(values)) if values else self
+
+    def unfit(self, sample_s: float) -> Iterator[tuple[str, str]]:
+        """Key and message of every number that a clock of `sample_s` cannot show; a kind may add its own."""
+        for key in ("onset_s", "end_s", "delay_s"):
+            yield from ((key, f"{key} {wrong}") for wrong in misfits(getattr(self, key), sample_s))
+        for key in self.lengths:
+            unsaid = "" if key in self.model_fields_set else f". It is the default of {self.kind}; say what you mean"
+            yield from ((key, f"{key} {wrong}{unsaid}") for wrong in misfits(getattr(self, key), sample_s, least=1))
 
     @classmethod
     def key(cls, name: str) -> str:
@@ -135,8 +167,8 @@ class FaultSpecification(BaseModel):
 
     def held(self, site: Site) -> Any:
         """What stands in place of the signal with ``mode: replace``, in the unit of the site."""
-        percent = (self.hold_value_percent or 0.0) / 100.0 * site.admissible
-        return percent + (self.hold_value or 0.0)
+        percent, value = (0.0 if v is None else v for v in (self.hold_value_percent, self.hold_value))
+        return percent / 100.0 * site.admissible + value
 
     @classmethod
     def block(cls, n_sites: int, sample_s: float) -> FaultBlock:

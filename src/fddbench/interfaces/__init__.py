@@ -9,12 +9,13 @@ from fddbench.interfaces.benchmark import Benchmark, Choice, Options, Parameter,
 from fddbench.interfaces.bus import Bus
 from fddbench.interfaces.detector import Detector, Tunable, Verdict, Voter
 from fddbench.interfaces.fault import Fault, FaultBlock, Instant
-from fddbench.interfaces.floats import Floats
+from fddbench.interfaces.floats import NEVER, Floats
 from fddbench.interfaces.loop import FlightFaults, Flights, Loop, Prepared, Sample
 from fddbench.interfaces.recording import Recording
 from fddbench.interfaces.site import Site
 
 __all__ = [
+    "NEVER",
     "Benchmark",
     "Bus",
     "Choice",

@@ -90,6 +90,10 @@ class Benchmark(Protocol):
 
     `choices` are the keys by which a campaign chooses; `shown` names the signals in the pictures of the report, `limits_from`
     says where the time limits come from.
+
+    For the report it may have more, and has these otherwise: ``envelope_axes``, pairs of parameters that belong on the two
+    axes of a picture (none); ``published``, the printed table that stands beside its results unless a campaign names another,
+    and ``iterations``, the printed course of an optimisation: files of ``reports/published`` by their names ("": none).
     """
 
     name: str
@@ -120,6 +124,9 @@ class SinglePlant:
     parameters: tuple[Parameter, ...] = ()
     shown: tuple[str, ...] = ()
     limits_from = "the author of the benchmark"
+    envelope_axes: Sequence[tuple[str, str]] = ()
+    published = ""
+    iterations = ""
 
     def plant(self, chosen: Mapping[str, Any]) -> Any:
         """The benchmark itself."""

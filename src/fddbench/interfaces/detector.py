@@ -26,7 +26,7 @@ class Verdict:
     alarm : (n_cases,) row or None
         1 where something is wrong, else 0; None: where any site is declared. It holds wherever a site is declared.
     estimate : (n_watched, n_cases) rows, (n_cases,) row or None
-        Size of the fault in the unit of its site: of every watched site, or of the voted signal.
+        Size of the fault in the unit of its site: of every watched site, or of the voted signal that `estimates` names.
     """
 
     declared: Rows
@@ -43,8 +43,9 @@ class Detector(Protocol):
     ``from_design(gains, bus)``, which makes the detector for a bus or raises `DesignError`.
 
     It may have more, and has these otherwise: ``watches``, the names of the sites it declares (all sites of the bus);
-    ``isolates`` (True; False for one that only detects); ``constants`` and ``draws`` (none): a detector that has them is a
-    full block, with ``start(c)`` and ``step(x, c, n, measured)``.
+    ``isolates`` (True; False for one that only detects); ``estimates``, what `Verdict.estimate` is of (None: it gives none):
+    "sites", or the name of a voted signal; ``constants`` and ``draws`` (none): a detector that has them is a full block,
+    with ``start(c)`` and ``step(x, c, n, measured)``.
     """
 
     states: Layout[Any]

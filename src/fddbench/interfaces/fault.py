@@ -79,12 +79,12 @@ class Fault(Protocol):
         ...
 
     @property
-    def onset_s(self) -> float:
-        """First faulty sample of the first site [s]."""
+    def onset_s(self) -> Any:
+        """First faulty sample of the first site [s]; a number, in flight also (n_cases,), as written also `Varied`."""
         ...
 
     @property
-    def end_s(self) -> float | None:
+    def end_s(self) -> Any:
         """First healthy sample again [s]; None: never."""
         ...
 
@@ -94,7 +94,7 @@ class Fault(Protocol):
         ...
 
     @property
-    def delay_s(self) -> float:
+    def delay_s(self) -> Any:
         """Later onset from site to site [s]."""
         ...
 
@@ -105,6 +105,8 @@ class Fault(Protocol):
 
     def numbers(self, site: Site, uniform: Floats) -> Any:
         """Constants of the block on one site, a record of numbers or (n_cases,) arrays, in the unit of the site.
+
+        The fault's own numbers are numbers or (n_cases,) arrays here, so compute with them as with arrays.
 
         `uniform`, (n_cases,), holds a number in (0, 1) of each flight, for what is drawn once.
         """

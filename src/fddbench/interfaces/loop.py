@@ -1,7 +1,7 @@
 """What a benchmark's closed loop must offer."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import SimpleNamespace
 from typing import Any, Protocol
 
@@ -24,7 +24,8 @@ class FlightFaults:
     Attributes
     ----------
     lists : sequence of sequences of Fault
-        The faults of each scenario, in the order of its lines: fault slot 0, 1, …
+        The faults of each scenario, in the order of its lines: fault slot 0, 1, … A number that differs from flight to flight
+        is an array with an entry for each flight of that scenario, in their order.
     which : (n_cases,) array of int
         Scenario of each flight, a position in `lists`.
     uniform : (n_slots, n_sites, n_cases) array
@@ -83,11 +84,18 @@ class Sample:
         What nobody measures, by the names of `Loop.truth`.
     departed : boolean (n_cases,) row
         Flights that have left what the model describes; this sample is not scored.
+    added : (n_sites, n_cases) rows or None
+        What the faults really add on each site of the bus, faulty minus healthy, in its unit: what estimates are scored
+        against. None: the benchmark does not say, and no estimate is scored.
+    voted : mapping of str to (n_cases,) rows
+        Error of each voted signal of the bus, voted minus true, by its name.
     """
 
     measured: SimpleNamespace
     truth: Mapping[str, Rows]
     departed: Row
+    added: Rows = None
+    voted: Mapping[str, Row] = field(default_factory=dict)
 
 
 class Loop(Protocol):

@@ -16,12 +16,12 @@ class Recording:
     ----------
     scenario : str
         Name of the scenario.
-    cases : tuple of int
-        Case numbers, as in the rows.
+    cases : tuple of str
+        Names of the cases, ``jam_a/3/0/17``, as the column ``case`` has them.
     time_s : (n_time,) array
         Time since the start [s].
-    onset_s : float or None
-        First faulty sample [s].
+    onset_s : (n_cases,) array or None
+        First faulty sample of each [s]; None: healthy flights.
     signals : mapping of str to (n_time, n_cases) arrays
         Measured and true signals by name with unit; a signal of several rows is numbered from 1 (``r_deg_s_1``).
     detectors : mapping of str to mapping of str to (n_time, n_cases) arrays
@@ -29,8 +29,8 @@ class Recording:
     """
 
     scenario: str
-    cases: tuple[int, ...]
+    cases: tuple[str, ...]
     time_s: Floats
-    onset_s: float | None
+    onset_s: Floats | None
     signals: Mapping[str, Floats]
     detectors: Mapping[str, Mapping[str, Floats]]

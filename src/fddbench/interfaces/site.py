@@ -27,7 +27,7 @@ class Site:
     kind : {"sensor", "actuator", "component"}
         What it is.
     stops : (low, high)
-        What it cannot pass, in that unit; infinite for none.
+        What it cannot pass, in that unit, faulty or not; infinite for none.
     limits_s : sequence of float
         Detection time limit [s] when one, two, … sites of this signal are faulty; the last holds for more. Empty: a scenario
         must state its own.

@@ -16,11 +16,9 @@ import numpy as np
 
 from fddbench.blocks.layout import Rows
 from fddbench.blocks.linear import total
+from fddbench.interfaces import NEVER
 
 __all__ = ["BEFORE", "NEVER", "changed", "found_by_alarm", "found_by_sites", "in_flight", "outside"]
-
-NEVER = float(2**53)
-"""A sample number that no flight reaches; an exact float64."""
 
 BEFORE = -1.0
 """Instead of a sample: declared before the fault began, or standing when it did."""

@@ -1,163 +1,163 @@
 """From score states at the end of a flight to the columns of rows and events."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 import pyarrow as pa
 
-from fddbench.interfaces import Floats
-from fddbench.metrics.scoring import NEVER, Scoring
+from fddbench.interfaces import NEVER, Floats
+from fddbench.metrics.estimate import bias_and_rms
+from fddbench.metrics.found import BEFORE, in_flight
+from fddbench.metrics.outcome import Ends, Judged, judged, seconds
+from fddbench.metrics.score import ScoreConstants, ScoreState
+from fddbench.metrics.scoring import Scoring
 
-__all__ = ["Truth", "event_columns", "score_columns", "statuses"]
+__all__ = ["event_columns", "score_columns", "statuses"]
 
 Columns = dict[str, pa.Array]
 Cases = npt.NDArray[np.int64]
+Booleans = npt.NDArray[np.bool_]
 
-
-@dataclass(frozen=True, kw_only=True)
-class Truth:
-    """What is true of the cases of a batch.
-
-    Attributes
-    ----------
-    faulty_sites : sequence of tuple of str
-        Distinct faulty sites in site order, one entry a scenario.
-    limit_s : sequence of float or None
-        Detection time limit [s]; None: healthy flight. One entry a scenario.
-    scenario : (n_cases,) array of int
-        Position of each case's scenario in both.
-    """
-
-    faulty_sites: Sequence[tuple[str, ...]]
-    limit_s: Sequence[float | None]
-    scenario: Cases
+_NONFINITE = "the detector's residual or estimate is not a finite number, or its verdict not 0 or 1"
 
 
 def statuses(
-    scoring: Scoring,
-    score: Floats,
-    constants: Floats,
-    *,
-    departed: Floats,
-    infeasible: Sequence[str],
-    errors: Sequence[str],
+    scoring: Scoring, score: Floats, *, infeasible: Sequence[str], errors: Sequence[str]
 ) -> tuple[list[str], list[str | None]]:
-    """Status and reason of every case; of several the first in this order: infeasible, error, diverged, nonfinite."""
-    x, c = scoring.states.unpack(score), scoring.constants.unpack(constants)
+    """Status and reason of every case; of several the first in this order: infeasible, error, nonfinite."""
+    nonfinite = scoring.states.unpack(score).nonfinite > 0.0
     status: list[str] = ["ok"] * score.shape[1]
     reason: list[str | None] = [None] * score.shape[1]
-    left = (departed <= c.last) & (x.detection == NEVER)
-    rest = np.array([bool(a or b) for a, b in zip(infeasible, errors, strict=True)], dtype=bool)
-    for i in np.flatnonzero(rest | left | (x.nonfinite > 0.0)).tolist():
+    told = np.array([bool(a or b) for a, b in zip(infeasible, errors, strict=True)], dtype=bool)
+    for i in np.flatnonzero(told | nonfinite).tolist():
         if infeasible[i]:
             status[i], reason[i] = "infeasible", infeasible[i]
         elif errors[i]:
             status[i], reason[i] = "error", errors[i]
-        elif left[i]:
-            status[i], reason[i] = "diverged", f"the flight departed at sample {departed[i]:.0f}"
         else:
-            status[i], reason[i] = (
-                "nonfinite",
-                "the detector's residual is not a finite number, or its verdict not 0 or 1",
-            )
+            status[i], reason[i] = "nonfinite", _NONFINITE
     return status, reason
 
 
 def score_columns(
-    scoring: Scoring,
-    score: Floats,
-    constants: Floats,
-    *,
-    truth: Truth,
-    sites: Sequence[str],
-    status: Sequence[str],
-    departed: Floats,
-    sample_s: float,
+    scoring: Scoring, score: Floats, constants: Floats, *, limit_s: Floats, status: Sequence[str], departed: Floats
 ) -> Columns:
-    """Score columns of one detector, one entry a case; all null where the status is not ok."""
+    """Score columns of one detector, one entry a case; null where the status is not ok, but for what is true of the flight.
+
+    Parameters
+    ----------
+    scoring : Scoring
+        Of the detector.
+    score, constants : (n_rows, n_cases) arrays
+        Its score after the flight, and the constants of the scoring.
+    limit_s : (n_cases,) array
+        Detection time limit from the first onset [s]; not-a-number for a healthy flight.
+    status : sequence of str
+        Of each case.
+    departed : (n_cases,) array
+        Sample at which the flight departed, `NEVER` if it did not.
+    """
     x, c = scoring.states.unpack(score), scoring.constants.unpack(constants)
-    ok = np.array([name == "ok" for name in status], dtype=bool)
-    n_faulty = np.array([len(names) for names in truth.faulty_sites], dtype=np.int64)[truth.scenario]
-    of_fault = ok & (n_faulty > 0)
-    limit_s = np.array([np.nan if limit is None else limit for limit in truth.limit_s])[truth.scenario]
-    end = np.minimum(c.last, departed - 1.0)
-    n_declared = np.round(np.where(ok, x.declared.sum(axis=0), 0.0)).astype(np.int64)
-    bits = 2 ** np.arange(len(sites), dtype=np.int64)
-    declared = (bits[:, np.newaxis] * (x.declared > 0.0)).sum(axis=0)
-    faulty = np.array([sum(int(bits[sites.index(s)]) for s in names) for names in truth.faulty_sites], dtype=np.int64)
-    faulty = faulty[truth.scenario]
-    columns: Columns = {
-        "flight_s": _nullable(_seconds(end, sample_s), ok),
-        "n_faulty": pa.array(n_faulty),
-        "faulty_sites": _texts(["+".join(names) or None for names in truth.faulty_sites], truth.scenario),
-        "onset_s": _nullable(_seconds(c.k0, sample_s), n_faulty > 0),
-        "n_declared": _nullable(n_declared, ok),
-        "declared_sites": _names(declared, sites, ok & (declared > 0)),
-        "false_alarm": _nullable(x.false_alarm > 0.0, ok),
-        "margin_healthy": _nullable(x.margin_healthy, ok & (c.k0 > 0.0)),
-        "classified": _nullable(n_declared == n_faulty, of_fault),
-        "isolated": _nullable(declared == faulty, of_fault),
-        "false_isolation": _nullable((declared & ~faulty) != 0, of_fault),
-        "over_declared": _nullable(x.over_declared > 0.0, of_fault),
-        "margin_faulty": _nullable(x.margin_faulty, of_fault),
-    }
-    times = _times(x.first_alarm, x.detection, k0=c.k0, end=end, limit_s=limit_s, sample_s=sample_s, valid=of_fault)
-    return columns | times | {"detection_time_limit_s": _nullable(limit_s, ~np.isnan(limit_s))}
+    ends, ok = Ends(last=c.last, departed=departed), np.array([name == "ok" for name in status], dtype=bool)
+    faulty = c.k0 < NEVER
+    flown = ok & faulty & (ends.scored >= c.k0)
+    return (
+        _truth(scoring, c, limit_s)
+        | _outcome(scoring, x, c, limit_s=limit_s, ends=ends, ok=ok)
+        | _declared(scoring, x, c, ok=ok, flown=flown)
+        | {
+            "flight_s": _nullable(seconds(np.maximum(ends.scored, 0.0), scoring.sample_s), ok),
+            "departed_s": _nullable(seconds(np.where(ends.left, departed, 0.0), scoring.sample_s), ok & ends.left),
+            "margin_healthy": _nullable(x.margin_healthy, ok & (ends.scored >= 0.0) & (c.k0 > 0.0)),
+            "margin_faulty": _nullable(x.margin_faulty, flown),
+        }
+    )
 
 
-def _nullable(values: Any, valid: Any) -> pa.Array:
-    """Values, null where not valid."""
-    return pa.array(np.asarray(values), mask=~np.asarray(valid, dtype=bool), from_pandas=False)
-
-
-def _texts(known: Sequence[str | None], positions: Cases, valid: Any = True) -> pa.Array:
-    """Texts by their positions in a few known ones, null where not valid."""
-    return pa.array(known, pa.string()).take(_nullable(positions, np.broadcast_to(valid, positions.shape)))
-
-
-def _names(codes: Cases, sites: Sequence[str], valid: Any) -> pa.Array:
-    """Names joined by + of sites given as bits, null where not valid."""
-    known, positions = np.unique(codes, return_inverse=True)
-    names = ["+".join(site for i, site in enumerate(sites) if code >> i & 1) for code in known.tolist()]
-    return _texts(names, positions, valid)
-
-
-def _seconds(samples: Floats, sample_s: float) -> Floats:
-    """Times of sample numbers [s], without the digits that binary fractions add."""
-    rounded: Floats = np.round(samples * sample_s, 9)
-    return rounded
-
-
-def _times(
-    alarm: Floats,
-    detection: Floats,
-    *,
-    k0: Floats,
-    end: Floats,
-    limit_s: Floats,
-    sample_s: float,
-    valid: npt.NDArray[np.bool_],
-) -> Columns:
-    """Times from the onset, and whether the requirement was met; a flight that ended too early is censored."""
-    found = detection < NEVER
-    time_s = _seconds(np.where(found, detection - k0, 0.0), sample_s)
-    censored = ~found & (_seconds(end - k0, sample_s) < limit_s)
-    with np.errstate(invalid="ignore"):
-        late = ~found | (time_s > limit_s)
+def _truth(scoring: Scoring, c: ScoreConstants, limit_s: Floats) -> Columns:
+    """What is true of a flight whatever became of it."""
+    faulty = c.faulty_from < NEVER
+    watched = np.array([[site in scoring.watches] for site in scoring.sites])
+    some = faulty.any(axis=0)
     return {
-        "first_alarm_time_s": _nullable(
-            _seconds(np.where(alarm < NEVER, alarm - k0, 0.0), sample_s), valid & (alarm < NEVER)
-        ),
-        "detection_time_s": _nullable(time_s, valid & found),
-        "detection_time_limit_s": _nullable(limit_s, valid),
-        "normalized_detection_time": _nullable(time_s / np.where(valid, limit_s, 1.0), valid & found),
-        "detected": _nullable(alarm < NEVER, valid),
-        "missed": _nullable(late, valid & ~censored),
-        "censored": _nullable(censored, valid),
+        "n_faulty": pa.array(faulty.sum(axis=0).astype(np.int64)),
+        "faulty_sites": _names(faulty, scoring.sites, some),
+        "onset_s": _nullable(seconds(c.k0, scoring.sample_s), some),
+        "detection_time_limit_s": _nullable(np.round(limit_s, 9), some),
+        "watched": _nullable(~(faulty & ~watched).any(axis=0), some),
     }
+
+
+def _outcome(
+    scoring: Scoring, x: ScoreState, c: ScoreConstants, *, limit_s: Floats, ends: Ends, ok: Booleans
+) -> Columns:
+    """Outcome and the times that it stands on."""
+    sample_s, start, faulty = scoring.sample_s, c.k0, c.k0 < NEVER
+    of_faults, first, last = _faults(x, c)
+    within = np.where(faulty, np.round(limit_s, 9), 1.0)
+    met = judged(of_faults, first=first, last=last, start=start, limit_s=within, ends=ends, sample_s=sample_s)
+    false_alarm, wrong = x.false_alarm < NEVER, (x.wrong < NEVER) & scoring.isolates
+    outcome = np.select([false_alarm, ~faulty, wrong], ["false_alarm", "quiet", "wrong_site"], met.outcome)
+    columns: Columns = {
+        "outcome": pa.array(outcome.tolist(), pa.string(), mask=~ok),
+        "false_alarm_time_s": _nullable(seconds(x.false_alarm, sample_s), ok & false_alarm),
+        "alarm_time_s": _nullable(seconds(x.raised - start, sample_s), ok & (x.raised < NEVER)),
+        "wrong_site_time_s": _nullable(seconds(x.wrong - start, sample_s), ok & wrong),
+    }
+    return (
+        columns
+        | _detection(met, start=start, limit_s=within, sample_s=sample_s, valid=ok & faulty)
+        | _estimate(x, c, ends, ok)
+    )
+
+
+def _detection(met: Judged, *, start: Floats, limit_s: Floats, sample_s: float, valid: Booleans) -> Columns:
+    """Detection time, and its share of the limit."""
+    valid = valid & (met.at < NEVER) & (met.at > BEFORE)
+    time_s = seconds(np.where(valid, met.at - start, 0.0), sample_s)
+    return {
+        "detection_time_s": _nullable(time_s, valid),
+        "normalized_detection_time": _nullable(time_s / limit_s, valid),
+    }
+
+
+def _declared(scoring: Scoring, x: ScoreState, c: ScoreConstants, *, ok: Booleans, flown: Booleans) -> Columns:
+    """What is declared at the end, and what is wrong with it."""
+    declared = (x.declared > 0.0) & scoring.isolates
+    exact = (declared == (c.faulty_from < NEVER)).all(axis=0)
+    decides = flown & scoring.isolates
+    return {
+        "n_declared": _nullable(declared.sum(axis=0).astype(np.int64), ok),
+        "declared_sites": _names(declared, scoring.sites, ok & declared.any(axis=0)),
+        "isolated": _nullable(exact, decides),
+        "over_declared": _nullable(x.over_declared > 0.0, decides),
+        "changes": _nullable(np.round(x.changes).astype(np.int64), flown),
+    }
+
+
+def _faults(x: ScoreState, c: ScoreConstants) -> tuple[Floats, Floats, Floats]:
+    """Numbers, first and last samples of all faults, (n_faults, n_cases) each."""
+    none = np.zeros((0, len(c.k0)))
+    columns = ([one.found for one in x.faults], [one.first for one in c.faults], [one.last for one in c.faults])
+    found, first, last = (np.concatenate([none, *(row[np.newaxis] for row in rows)]) for rows in columns)
+    return found, first, last
+
+
+def _estimate(x: ScoreState, c: ScoreConstants, ends: Ends, valid: Booleans) -> Columns:
+    """Error of the estimate over all faults that were found."""
+    none = np.zeros(len(c.k0))
+    sums = [one.sums for one in x.faults if isinstance(one.sums, tuple)]
+    if not sums:
+        return {name: _nullable(none, none > 0.0) for name in ("estimate_bias", "estimate_rms")}
+    found, first, _ = _faults(x, c)
+    found = in_flight(found, first=first, last_scored=ends.scored)
+    count, first_sum, second_sum = (np.stack(rows) for rows in zip(*sums, strict=True))
+    n, bias, rms = bias_and_rms((count, first_sum, second_sum), found=found)
+    valid = valid & (n > 0.0)
+    return {"estimate_bias": _nullable(bias, valid), "estimate_rms": _nullable(rms, valid)}
 
 
 def event_columns(
@@ -165,26 +165,41 @@ def event_columns(
     score: Floats,
     constants: Floats,
     *,
-    cases: Cases,
     event: int,
-    limit_s: float,
-    end: Floats,
-    sample_s: float,
-    valid: npt.NDArray[np.bool_],
+    limit_s: Floats,
+    departed: Floats,
+    valid: Booleans,
 ) -> Columns:
-    """Times of one fault of some cases, scored on its own sites and interval; all null where not valid.
+    """Outcome, times and estimate of one fault of every case by itself, null where not valid.
 
-    `cases` are positions in the batch, `end` the last sample of their flights that was scored, (n,).
+    `event` numbers the fault in its flight from 0; `limit_s`, (n_cases,), counts from its own onset [s].
     """
     x, c = scoring.states.unpack(score), scoring.constants.unpack(constants)
-    interval, found = c.events[event], x.events[event]
-    times = _times(
-        found.alarm[cases],
-        found.detection[cases],
-        k0=interval.first[cases],
-        end=np.minimum(interval.last[cases], end),
-        limit_s=np.full(len(cases), limit_s),
-        sample_s=sample_s,
-        valid=valid,
+    x, c = replace(x, faults=(x.faults[event],)), replace(c, faults=(c.faults[event],))
+    ends, within, start = Ends(last=c.last, departed=departed), np.round(limit_s, 9), c.faults[0].first
+    found, first, last = _faults(x, c)
+    met = judged(
+        found, first=first, last=last, start=start, limit_s=within, ends=ends, sample_s=scoring.sample_s
+    )  # fmt: skip
+    columns: Columns = {
+        "outcome": pa.array(met.outcome.tolist(), pa.string(), mask=~valid),
+        "detection_time_limit_s": pa.array(within),
+    }
+    return (
+        columns
+        | _detection(met, start=start, limit_s=within, sample_s=scoring.sample_s, valid=valid)
+        | _estimate(x, c, ends, valid)
     )
-    return times | {"false_alarm": _nullable(found.early[cases] > 0.0, valid)}
+
+
+def _nullable(values: Any, valid: Any) -> pa.Array:
+    """Values, null where not valid."""
+    return pa.array(np.asarray(values), mask=~np.asarray(valid, dtype=bool), from_pandas=False)
+
+
+def _names(chosen: Booleans, sites: Sequence[str], valid: Booleans) -> pa.Array:
+    """Names joined by + of the chosen sites, (n_sites, n_cases), null where not valid."""
+    bits = 2 ** np.arange(len(sites), dtype=np.int64)
+    known, positions = np.unique((bits[:, np.newaxis] * chosen).sum(axis=0), return_inverse=True)
+    names = ["+".join(site for i, site in enumerate(sites) if code >> i & 1) for code in known.tolist()]
+    return pa.array(names, pa.string()).take(_nullable(positions, valid))

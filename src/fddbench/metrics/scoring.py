@@ -1,68 +1,32 @@
-"""Scoring inside the flight: extremes and integers only, so that no signal has to be stored.
+"""Scoring inside the flight: extremes, integers and three sums, so that no signal has to be stored.
 
-The conventions are those of the columns in ``fddbench.results.schema``: k0 is the first faulty sample, n the number of
-declared sites, onsets and declarations are sample numbers and are compared as such.
+The conventions are those of the columns in ``fddbench.results.schema``: k0 is the first faulty sample, D the declared sites,
+F those that have been faulty so far; onsets and declarations are sample numbers and are compared as such. What a fault
+needs to be found is kept by `fddbench.metrics.found`, the error of its estimate by `fddbench.metrics.estimate`.
 """
 
 from collections.abc import Sequence
-from functools import reduce
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
-from fddbench.blocks.block import NO_DRAWS
+from fddbench.blocks.block import NO_DRAWS, Part
 from fddbench.blocks.drawn import Draws
-from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, record
+from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, mapped
 from fddbench.blocks.linear import total
-from fddbench.interfaces import Floats, Verdict
+from fddbench.errors import DesignError
+from fddbench.interfaces import NEVER, Floats, Sample, Verdict
+from fddbench.metrics.estimate import Sums, add_errors
+from fddbench.metrics.found import changed, found_by_alarm, found_by_sites, outside
+from fddbench.metrics.score import LOWEST, FaultScore, FaultTimes, ScoreConstants, ScoreState
 
-__all__ = ["NEVER", "EventScore", "EventTimes", "ScoreConstants", "ScoreState", "Scoring"]
+__all__ = ["SITES", "Scoring"]
 
-NEVER = float(2**53)
-"""A sample number that no flight reaches; an exact float64."""
+SITES = "sites"
+"""What a detector `estimates` that gives the size of the fault on each site that it watches."""
 
-
-@record
-class EventTimes:
-    """One fault of a scenario: first and last faulty sample (`NEVER`: to the end), and its sites (1 or 0)."""
-
-    first: Row
-    last: Row
-    own: Rows
-
-
-@record
-class EventScore:
-    """First alarm on its own sites and detection of one fault, as samples; 1 where it was declared early."""
-
-    alarm: Row
-    detection: Row
-    early: Row
-
-
-@record
-class ScoreConstants:
-    """First faulty sample, number of faulty sites, last sample of the flight, and the events."""
-
-    k0: Row
-    n_faulty: Row
-    last: Row
-    events: tuple[EventTimes, ...]
-
-
-@record
-class ScoreState:
-    """First alarm and detection as samples; flags, largest residuals, final declaration, and the events."""
-
-    first_alarm: Row
-    detection: Row
-    over_declared: Row
-    false_alarm: Row
-    margin_healthy: Row
-    margin_faulty: Row
-    nonfinite: Row
-    declared: Rows
-    events: tuple[EventScore, ...]
+SETTLING_S = 1.0
+"""After a detection, what the estimate may take to settle [s]."""
 
 
 class Scoring:
@@ -70,87 +34,176 @@ class Scoring:
 
     Parameters
     ----------
-    n_sites : int
+    sites : sequence of str
         Fault sites of the benchmark.
-    n_events : int
-        Faults that are scored on their own, 0 where no scenario has several or ending faults.
+    n_faults : int
+        The most faults that a flight has.
+    sample_s : float
+        Sample time [s].
+    watches : sequence of str, optional
+        Sites that the detector declares and estimates; all by default.
+    isolates : bool
+        False for a detector that only detects: it is scored by its alarm.
+    estimates : str or None
+        What `Verdict.estimate` is of: `SITES`, or the name of a voted signal; None: the detector estimates nothing.
     """
 
     draws: Draws[Any] = NO_DRAWS
 
-    def __init__(self, n_sites: int, n_events: int) -> None:
-        self.n_sites, self.n_events = n_sites, n_events
-        events = tuple(EventTimes(first=ROW, last=ROW, own=n_sites) for _ in range(n_events))
-        scores = tuple(EventScore(alarm=ROW, detection=ROW, early=ROW) for _ in range(n_events))
-        self.constants = Layout(ScoreConstants(k0=ROW, n_faulty=ROW, last=ROW, events=events))
+    def __init__(
+        self,
+        sites: Sequence[str],
+        n_faults: int,
+        sample_s: float,
+        *,
+        watches: Sequence[str] | None = None,
+        isolates: bool = True,
+        estimates: str | None = None,
+    ) -> None:
+        self.sites, self.n_faults, self.sample_s = tuple(sites), n_faults, sample_s
+        self.isolates, self.estimates = isolates, estimates
+        self.watches = self.sites if watches is None else tuple(watches)
+        self.settling = max(1.0, float(round(SETTLING_S / sample_s)))
+        n = len(self.sites)
+        times = tuple(FaultTimes(first=ROW, last=ROW, own=n) for _ in range(n_faults))
+        self.constants = Layout(ScoreConstants(k0=ROW, last=ROW, faulty_from=n, faults=times))
+        sums: Part = (ROW, ROW, ROW) if estimates else Nothing()
+        scores = tuple(FaultScore(found=ROW, sums=sums) for _ in range(n_faults))
         self.states = Layout(
             ScoreState(
-                first_alarm=ROW, detection=ROW, over_declared=ROW, false_alarm=ROW, margin_healthy=ROW,
-                margin_faulty=ROW, nonfinite=ROW, declared=n_sites, events=scores,
+                declared=n, alarm=ROW, false_alarm=ROW, raised=ROW, wrong=ROW, over_declared=ROW, changes=ROW,
+                margin_healthy=ROW, margin_faulty=ROW, nonfinite=ROW, faults=scores,
             )
         )  # fmt: skip
 
-    def rows(self, *, k0: float, n_faulty: int, last: float, events: Sequence[EventTimes], n_cases: int) -> Floats:
-        """Constant rows of one scenario, (n_rows, n_cases); the sites of an event are a column, (n_sites, 1)."""
-        nothing = EventTimes(first=NEVER, last=NEVER, own=0.0)
-        own = tuple(events[j] if j < len(events) else nothing for j in range(self.n_events))
-        constants = ScoreConstants(k0=k0, n_faulty=float(n_faulty), last=last, events=own)
+    def of(self, *, watches: Sequence[str], isolates: bool, estimates: str | None) -> "Scoring":
+        """Score of another detector on the same flights: the same constants."""
+        more: dict[str, Any] = {"watches": watches, "isolates": isolates, "estimates": estimates}
+        return Scoring(self.sites, self.n_faults, self.sample_s, **more)
+
+    def rows(self, *, last: Row, faults: Sequence[FaultTimes], faulty_from: Rows, n_cases: int) -> Floats:
+        """Constant rows of flights, (n_rows, n_cases), that end with the sample `last`.
+
+        Rows of sites are (n_sites, 1) or (n_sites, n_cases), single ones numbers or (n_cases,).
+        """
+        nothing = FaultTimes(first=NEVER, last=NEVER, own=0.0)
+        own = tuple(faults[j] if j < len(faults) else nothing for j in range(self.n_faults))
+        k0 = np.broadcast_to(np.min(faulty_from, axis=0), (n_cases,))
+        constants = ScoreConstants(k0=k0, last=last, faulty_from=faulty_from, faults=own)
         packed: Floats = self.constants.pack(self.constants.spread(constants, n_cases), n_cases)
         return packed
 
     def start(self, c: ScoreConstants) -> ScoreState:
-        """Nothing seen yet."""
+        """Nothing seen yet, and nothing declared."""
         del c
-        event = EventScore(alarm=NEVER, detection=NEVER, early=0.0)
+        sums = mapped(lambda _: 0.0, self.states.shape.faults[0].sums) if self.n_faults else Nothing()
         return ScoreState(
-            first_alarm=NEVER, detection=NEVER, over_declared=0.0, false_alarm=0.0, margin_healthy=0.0,
-            margin_faulty=0.0, nonfinite=0.0, declared=0.0, events=(event,) * self.n_events,
+            declared=0.0, alarm=0.0, false_alarm=NEVER, raised=NEVER, wrong=NEVER, over_declared=0.0, changes=0.0,
+            margin_healthy=LOWEST, margin_faulty=LOWEST, nonfinite=0.0,
+            faults=(FaultScore(found=NEVER, sums=sums),) * self.n_faults,
         )  # fmt: skip
 
+    @property
+    def truth(self) -> str:
+        """What `actual` needs of a sample, as recordings call it: ``added``, ``voted:NAME`` or, without an estimate, ""."""
+        return "" if self.estimates is None else "added" if self.estimates == SITES else f"voted:{self.estimates}"
+
+    def actual(self, seen: Sample) -> Rows:
+        """What the estimate of the detector is compared with; None where there is none, or the benchmark does not say.
+
+        Raises
+        ------
+        DesignError
+            The benchmark votes on no such signal.
+        """
+        if self.estimates is None:
+            return None
+        if self.estimates == SITES:
+            return seen.added
+        if seen.voted and self.estimates not in seen.voted:
+            raise DesignError(f"estimates says {self.estimates!r}; write 'sites' or one of {sorted(seen.voted)}")
+        return seen.voted.get(self.estimates)
+
     def step(
-        self, x: ScoreState, c: ScoreConstants, n: Nothing, verdict: Verdict, sample: Row, alive: Row
+        self, x: ScoreState, c: ScoreConstants, n: Nothing, verdict: Verdict, actual: Rows, sample: Row, alive: Row
     ) -> tuple[ScoreState, Row]:
         """Score after one more sample, and the number of declared sites at this one.
 
-        Flights that have departed or ended keep their score. `verdict` has a row for every site of the benchmark, and an alarm.
+        Flights that have departed or ended keep their score. `verdict` has a row for every site of the benchmark, and an
+        alarm; `actual` is what its estimate is compared with, None for nothing.
         """
         del n
         declared = verdict.declared * 1.0  # a plug-in may declare with booleans, whose sum would be a logical or
-        alarm = verdict.alarm * 1.0
         number = total(declared)
+        alarm = np.maximum(verdict.alarm * 1.0, np.where(number > 0.0, 1.0, 0.0))
         active = alive & (sample <= c.last)
-        faulty = active & (sample >= c.k0)
-        healthy = active & (sample < c.k0)
-        # 0 for verdicts of 0 and 1 only; what is anything else, or not a number, is not repaired but said
-        odd = total(np.abs(declared * (declared - 1.0))) + np.abs(alarm * (alarm - 1.0))
-        sound = (np.abs(verdict.residual) < np.inf) & (odd == 0.0)
+        faulty, healthy = active & (sample >= c.k0), active & (sample < c.k0)
+        wrong = outside(declared, c.faulty_from, sample)
+        news = changed(declared, x.declared)
+        said = news if self.isolates else alarm != x.alarm
+        so_far = total(np.where(sample >= c.faulty_from, 1.0, 0.0))
+        residual, errors = verdict.residual, _errors(verdict, actual)
         after = ScoreState(
-            first_alarm=_first(x.first_alarm, faulty & (alarm > 0.0), sample),
-            detection=_first(x.detection, faulty & (number == c.n_faulty), sample),
-            over_declared=np.where(faulty & (number > c.n_faulty), 1.0, x.over_declared),
-            false_alarm=np.where(healthy & (alarm > 0.0), 1.0, x.false_alarm),
-            margin_healthy=np.where(healthy, np.maximum(x.margin_healthy, verdict.residual), x.margin_healthy),
-            margin_faulty=np.where(faulty, np.maximum(x.margin_faulty, verdict.residual), x.margin_faulty),
-            nonfinite=np.where(active & ~sound, 1.0, x.nonfinite),
             declared=np.where(active, declared, x.declared),
-            events=tuple(self._event(x, c, j, declared, sample, active) for j in range(self.n_events)),
-        )
+            alarm=np.where(active, alarm, x.alarm),
+            false_alarm=_first(x.false_alarm, healthy & (alarm > 0.0), sample),
+            raised=_first(x.raised, faulty & (alarm > 0.0) & (x.alarm == 0.0), sample),
+            wrong=_first(x.wrong, faulty & wrong, sample),
+            over_declared=np.where(faulty & (number > so_far), 1.0, x.over_declared),
+            changes=np.where(faulty & said, x.changes + 1.0, x.changes),
+            margin_healthy=np.where(healthy, np.maximum(x.margin_healthy, residual), x.margin_healthy),
+            margin_faulty=np.where(faulty, np.maximum(x.margin_faulty, residual), x.margin_faulty),
+            nonfinite=np.where(active & ~_sound(verdict, declared), 1.0, x.nonfinite),
+            faults=tuple(
+                self._fault(
+                    one, times, declared, alarm, x.alarm, wrong=wrong, news=news, sample=sample, active=active, errors=errors
+                )
+                for one, times in zip(x.faults, c.faults, strict=True)
+            ),
+        )  # fmt: skip
         return after, number
 
-    def _event(self, x: ScoreState, c: ScoreConstants, j: int, declared: Rows, sample: Row, active: Row) -> EventScore:
-        """First alarm and detection of one fault, on its own sites and in its own interval, and alarms before it."""
-        event, score = c.events[j], x.events[j]
-        within = active & (sample >= event.first) & (sample <= event.last)
-        hits, own = total(declared * event.own), total(event.own)
-        # a site that another fault has made faulty is rightly declared before this one
-        others = [np.where(sample >= other.first, other.own, 0.0) for i, other in enumerate(c.events) if i != j]
-        innocent = event.own * (1.0 - reduce(np.maximum, others, np.zeros_like(event.own)))
-        early = active & (sample < event.first) & (total(declared * innocent) > 0.0)
-        return EventScore(
-            alarm=_first(score.alarm, within & (hits > 0.0), sample),
-            detection=_first(score.detection, within & (hits == own), sample),
-            early=np.where(early, 1.0, score.early),
+    def _fault(
+        self, x: FaultScore, c: FaultTimes, declared: Rows, alarm: Row, alarm_before: Row, *, wrong: Row, news: Row,
+        sample: Row, active: Row, errors: Rows,
+    ) -> FaultScore:  # fmt: skip
+        """Number of one fault, and the sums of the errors of its estimate."""
+        when: dict[str, Row] = {"last": c.last, "sample": sample, "active": active}
+        if self.isolates:
+            found = found_by_sites(x.found, c.own, declared, wrong=wrong, news=news, first=c.first, **when)
+        else:
+            found = found_by_alarm(x.found, alarm, alarm_before, first=c.first, **when)
+        if self.estimates is None or errors is None:
+            return FaultScore(found=found, sums=x.sums)
+        own = self._estimated(c.own) if self.estimates == SITES else np.ones_like(errors)
+        sums = add_errors(
+            cast("Sums", x.sums), errors, own, found=found, before=x.found, settling=self.settling, **when
         )
+        return FaultScore(found=found, sums=sums)
+
+    def _estimated(self, own: Rows) -> Rows:
+        """1 for the sites of a fault that the detector watches, else 0."""
+        watched = [float(site in self.watches) for site in self.sites]
+        return np.stack([row * one for row, one in zip(own, watched, strict=True)])
+
+
+def _errors(verdict: Verdict, actual: Rows) -> Rows:
+    """Estimate minus what it is of, (n_signals, n_cases); None without one of both."""
+    if actual is None or verdict.estimate is None:
+        return None
+    error = verdict.estimate - actual
+    return error if np.ndim(error) == 2 else error[np.newaxis]
+
+
+def _sound(verdict: Verdict, declared: Rows) -> Row:
+    """Whether declarations and alarm are 0 or 1 and the rest is finite; what is not is not repaired but said."""
+    alarm = verdict.alarm * 1.0
+    odd = total(np.abs(declared * (declared - 1.0))) + np.abs(alarm * (alarm - 1.0))
+    sound = (np.abs(verdict.residual) < np.inf) & (odd == 0.0)
+    if verdict.estimate is None:
+        return sound
+    size = np.abs(verdict.estimate)
+    return sound & ((total(size) if np.ndim(size) == 2 else size) < np.inf)
 
 
 def _first(number: Row, condition: Row, sample: Row) -> Row:

@@ -1,5 +1,6 @@
 """Detection-time curves per fault and the envelope flown."""
 
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -16,8 +17,6 @@ if TYPE_CHECKING:
 
 __all__ = ["detection_curve", "detection_curves", "envelope", "label"]
 
-_PAIRS = (("p_v_cas_kt", "p_altitude_ft"), ("p_x_cg_ratio", "p_mass_kg"))
-
 
 def label(name: str) -> str:
     """Axis label of a signal or parameter, its unit taken from the name.
@@ -32,7 +31,7 @@ def label(name: str) -> str:
 
 
 def detection_curve(time_s: Floats, follow_up_s: Floats, end_s: float) -> tuple[Floats, Floats]:
-    """Share of all flown flights detected by each time, as corners of a step curve.
+    """Share of all flown flights whose faults were found by each time, as corners of a step curve.
 
     Parameters
     ----------
@@ -102,7 +101,7 @@ def _curve_panel(axes: "Axes", scenario: str, flown: pd.DataFrame, order: list[s
         _curve(axes, flown[np.asarray(flown["detector"] == name, dtype=bool)], i, end_s) for i, name in enumerate(order)
     ]
     axes.axvline(limit_s, color=WARNING, lw=1.0, ls=(0, (4, 2)))
-    axes.set(ylim=(-4, 104), yticks=(0, 50, 100), title=scenario, xlabel="time after onset [s]", ylabel="detected [%]")
+    axes.set(ylim=(-4, 104), yticks=(0, 50, 100), title=scenario, xlabel="time after onset [s]", ylabel="found [%]")
     for i, note in enumerate(notes):
         place = (0.97, 0.66 - min(0.14, 0.6 / len(order)) * i)
         axes.annotate(
@@ -119,11 +118,15 @@ def _curve(axes: "Axes", flown: pd.DataFrame, i: int, end_s: float) -> str:
     return f"{int(np.sum(~np.isnan(times)))} of n = {len(times)}"
 
 
-def envelope(rows: pd.DataFrame) -> str | None:
-    """Picture of the dispersed parameters of every case, by what became of it; None when nothing varies."""
+def envelope(rows: pd.DataFrame, axes: Sequence[tuple[str, str]] = ()) -> str | None:
+    """Picture of the dispersed parameters of every case, by what became of it; None when nothing varies.
+
+    `axes` are pairs of parameters that belong together, one picture each; the others are paired as they come.
+    """
     cases = rows.drop_duplicates("case")
     varying = [name for name in rows.columns if name.startswith("p_") and cases[name].nunique() > 1]
-    pairs = [pair for pair in _PAIRS if set(pair) <= set(varying)]
+    pairs = [(f"p_{x}", f"p_{y}") for x, y in axes]
+    pairs = [pair for pair in pairs if set(pair) <= set(varying)]
     rest = [name for name in varying if not any(name in pair for pair in pairs)]
     rest = [*rest, varying[0]] if len(rest) % 2 else rest
     pairs += [pair for i, pair in enumerate(pairwise(rest)) if i % 2 == 0 and pair[0] != pair[1]]
@@ -135,11 +138,11 @@ def envelope(rows: pd.DataFrame) -> str | None:
 
     def draw(figure: "Figure") -> None:
         panels = figure.subplots(n_rows, columns, squeeze=False).ravel()
-        for axes, (x, y) in zip(panels, pairs, strict=False):
-            _scatter(axes, _numbers(cases, x), _numbers(cases, y), fates)
-            axes.set(xlabel=label(x), ylabel=label(y))
-        for axes in panels[len(pairs) :]:
-            axes.set_visible(False)
+        for panel, (x, y) in zip(panels, pairs, strict=False):
+            _scatter(panel, _numbers(cases, x), _numbers(cases, y), fates)
+            panel.set(xlabel=label(x), ylabel=label(y))
+        for panel in panels[len(pairs) :]:
+            panel.set_visible(False)
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper left", ncols=3)
 
     return to_png(draw, width_in=11.4, height_in=0.3 + 3.3 * n_rows)

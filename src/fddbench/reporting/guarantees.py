@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from fddbench.metrics.summary import rate_with_interval, true_detection
+from fddbench.metrics.shares import decided, share
 from fddbench.reporting.formats import DASH, count, interval, percent, seconds
 from fddbench.reporting.tables import Cell
 
@@ -14,10 +14,10 @@ __all__ = ["guarantee_lines"]
 
 
 def guarantee_lines(rows: pd.DataFrame, events: pd.DataFrame, designs: Sequence[Mapping[str, Any]]) -> list[list[Cell]]:
-    """One line per detector, the best true detection first; empty unless some design has a gamma.
+    """One line per detector, the largest share of right flights first; empty unless some design has a gamma.
 
-    Columns: detector, gamma, true detections of all flown flights with faults, false alarms of all flown flights, faults
-    of overlapping scenarios found in time, and the median of their detection times.
+    Columns: detector, gamma, right and wrong-site flights of the decided faulty ones, faults of overlapping scenarios found
+    in time, and the median of their detection times.
     """
     gammas = {design["name"]: design.get("gamma") for design in designs}
     if len(gammas) < 2 or all(gamma is None for gamma in gammas.values()):
@@ -27,42 +27,38 @@ def guarantee_lines(rows: pd.DataFrame, events: pd.DataFrame, designs: Sequence[
     for name, gamma in gammas.items():
         flown, own = ok[_is(ok, "detector", name)], events[_is(events, "detector", name) & _is(events, "status", "ok")]
         faulty = flown[np.asarray(flown["n_faulty"] > 0, dtype=bool)]
-        hits = int(true_detection(faulty).sum())
+        sure = faulty[decided(faulty)]
         cells = [
             Cell(str(name)),
             Cell(DASH if gamma is None else f"{gamma:.4f}"),
-            _share(hits, len(faulty)),
-            _share(int(_true(flown, "false_alarm").sum()), len(flown)),
-            *_of_events(own),
+            _share(sure, "right"),
+            _share(sure, "wrong_site"),
+            *_of_events(own[decided(own)]),
         ]
-        lines.append((hits / max(len(faulty), 1), cells))
+        lines.append((float(_is(sure, "outcome", "right").sum()) / max(len(sure), 1), cells))
     return [cells for _, cells in sorted(lines, key=lambda line: -line[0])]
 
 
 def _of_events(own: pd.DataFrame) -> list[Cell]:
-    """Faults found in time with nothing declared on them before, and the median of all detection times."""
+    """Faults found in time by their own limits, and the median of all detection times."""
     if own.empty:
         return [Cell(DASH), Cell(DASH)]
-    good = ~_true(own, "missed") & ~_true(own, "censored") & ~_true(own, "false_alarm")
     time_s = own["detection_time_s"].to_numpy(dtype=np.float64, na_value=np.nan)
     found = time_s[~np.isnan(time_s)]
-    return [
-        _share(int(good.sum()), len(own)),
-        Cell(seconds(np.quantile(found, 0.5, method="inverted_cdf") if len(found) else None)),
-    ]
+    median = np.quantile(found, 0.5, method="inverted_cdf") if len(found) else None
+    return [_share(own, "right"), Cell(seconds(median))]
 
 
-def _share(hits: int, trials: int) -> Cell:
-    if not trials:
+def _share(sure: pd.DataFrame, outcome: str) -> Cell:
+    if sure.empty:
         return Cell(DASH)
-    found = rate_with_interval("x", hits, trials)
+    hits = _is(sure, "outcome", outcome)
+    found = share("x", hits, sure["run"])
     ends = interval(found["x_low_percent"], found["x_high_percent"])
-    return Cell(f"{percent(found['x_percent'])} %", f"{count(hits)} of {count(trials)}: {ends}")
+    return Cell(
+        f"{percent(found['x_percent'])} %", f"{count(hits.sum())} of {count(len(sure))}{f': {ends}' if ends else ''}"
+    )
 
 
 def _is(table: pd.DataFrame, column: str, value: Any) -> Any:
     return np.asarray(table[column] == value, dtype=bool)
-
-
-def _true(table: pd.DataFrame, column: str) -> Any:
-    return table[column].to_numpy(dtype=np.float64, na_value=np.nan) == 1.0

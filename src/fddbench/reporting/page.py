@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from fddbench.interfaces import Recording
+from fddbench.metrics.alarms import summarize_alarms
 from fddbench.metrics.summary import summarize
 from fddbench.reporting import figures, headlines, signals, tables
 from fddbench.reporting.guarantees import guarantee_lines
@@ -26,8 +27,8 @@ class ReportData:
     Attributes
     ----------
     campaign : mapping
-        Effective content of the campaign: name, about, seed, benchmark, plant, voter, sensors, wind, purpose, sample_s,
-        scenarios, detectors.
+        Effective content of the campaign: name, about, seed, benchmark, what was chosen, purpose, sample_s, scenarios,
+        detectors.
     rows, events : DataFrame
         Tables as ``fddbench.load`` gives them.
     provenance : mapping of str to str
@@ -42,6 +43,12 @@ class ReportData:
         Printed course of an optimisation, and ours.
     limits_from : str
         Where the benchmark's detection time limits come from.
+    choices : sequence of str
+        Keys of what the campaign chose on the benchmark.
+    envelope_axes : sequence of pairs of str
+        Parameters that belong on the two axes of a picture of the envelope.
+    in_sample : sequence of str
+        Detectors that were tuned on these flights.
     """
 
     campaign: Mapping[str, Any]
@@ -53,6 +60,9 @@ class ReportData:
     published: Published | None = None
     iterations: Iterations | None = None
     limits_from: str = ""
+    choices: Sequence[str] = ()
+    envelope_axes: Sequence[tuple[str, str]] = ()
+    in_sample: Sequence[str] = ()
 
 
 def write_page(report: ReportData, output: Path) -> None:
@@ -78,15 +88,20 @@ def page_html(report: ReportData) -> str:
 
 def _content(report: ReportData) -> dict[str, Any]:
     rows = report.rows
-    summary = summarize(rows)
+    summary = summarize(rows, in_sample=report.in_sample)
+    alarms = summarize_alarms(rows, in_sample=report.in_sample)
     compared = tables.published_lines(summary, report.published) if report.published else []
     reasons = tables.reason_lines(rows)
     return {
         "campaign": report.campaign,
-        "settings": _settings(report.campaign),
+        "settings": _settings(report.campaign, report.choices),
         "campaign_text": _as_yaml(report.campaign),
         "flown": headlines.flown_sentence(rows),
-        "findings": headlines.findings(summary),
+        "findings": headlines.findings(rows, alarms, report.in_sample),
+        "in_sample": report.in_sample,
+        "result_heads": tables.RESULTS,
+        "quality_heads": tables.QUALITY,
+        "quality": tables.quality_lines(summary),
         "results": tables.result_lines(summary),
         "guarantees": guarantee_lines(rows, report.events, report.designs),
         "iterations": report.iterations,
@@ -94,8 +109,8 @@ def _content(report: ReportData) -> dict[str, Any]:
         "published": report.published,
         "compared": compared,
         "curves": figures.detection_curves(rows),
-        "pictures": [_picture(recording, rows) for recording in report.recordings if recording.cases],
-        "envelope": figures.envelope(rows),
+        "pictures": [p for r in report.recordings if r.cases for p in [_picture(r, rows)] if p["png"] is not None],
+        "envelope": figures.envelope(rows, report.envelope_axes),
         "reasons": reasons[:_MOST_REASONS],
         "more_reasons": max(len(reasons) - _MOST_REASONS, 0),
         "events": tables.event_lines(report.events) if len(report.events) else [],
@@ -104,8 +119,8 @@ def _content(report: ReportData) -> dict[str, Any]:
     }
 
 
-def _settings(campaign: Mapping[str, Any]) -> dict[str, Any]:
-    names = ("benchmark", "plant", "voter", "sensors", "wind", "purpose", "seed", "sample_s")
+def _settings(campaign: Mapping[str, Any], choices: Sequence[str]) -> dict[str, Any]:
+    names = ("benchmark", *choices, "purpose", "seed", "sample_s")
     return {name: campaign[name] for name in names if campaign.get(name) not in (None, "")}
 
 
@@ -115,12 +130,20 @@ def _picture(recording: Recording, rows: pd.DataFrame) -> dict[str, Any]:
     here = rows[np.asarray(rows["scenario"] == recording.scenario, dtype=bool)]
     return {
         "scenario": recording.scenario,
-        "onset_s": recording.onset_s,
+        "onset_s": _onsets(recording),
         "shown": len(recording.cases),
         "cases": here["case"].nunique(),
-        "worst": ", ".join(f"{name} case {case}" for name, case in zip(detectors, worst, strict=False)),
+        "worst": ", ".join(f"{name} {case}" for name, case in zip(detectors, worst, strict=False)),
         "png": signals.recording_picture(recording, rows),
     }
+
+
+def _onsets(recording: Recording) -> str | None:
+    """When the faults begin, in words; None in healthy flights."""
+    if recording.onset_s is None:
+        return None
+    first, last = float(np.min(recording.onset_s)), float(np.max(recording.onset_s))
+    return f"{first:g} s" if first == last else f"{first:g} to {last:g} s"
 
 
 def _as_yaml(content: Mapping[str, Any]) -> str:

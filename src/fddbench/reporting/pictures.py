@@ -58,8 +58,8 @@ def dashes(i: int) -> Any:
     return ("-", (0, (3, 1.5)), (0, (1, 1)), (0, (5, 1, 1, 1)))[i % 4]
 
 
-def to_png(draw: Callable[["Figure"], None], *, width_in: float, height_in: float) -> str:
-    """Picture drawn by `draw` on a fresh figure, as base64 text of a PNG.
+def to_png(draw: Callable[["Figure"], None], *, width_in: float, height_in: float) -> str | None:
+    """Picture drawn by `draw` on a fresh figure, as base64 text of a PNG; None for numbers that no axis can hold.
 
     Drawn by Agg without pyplot: nothing global is touched and nothing has to be closed.
     """
@@ -70,9 +70,13 @@ def to_png(draw: Callable[["Figure"], None], *, width_in: float, height_in: floa
     with mpl.rc_context(_STYLE):
         figure = Figure(figsize=(width_in, height_in), dpi=130, layout="constrained")
         FigureCanvasAgg(figure)
-        draw(figure)
         stream = io.BytesIO()
-        figure.savefig(stream, format="png", metadata={"Software": None}, pil_kwargs={"compress_level": 9})
+        try:
+            with np.errstate(all="ignore"):
+                draw(figure)
+                figure.savefig(stream, format="png", metadata={"Software": None}, pil_kwargs={"compress_level": 9})
+        except (ValueError, OverflowError):  # sizes of 1e308 overflow the limits of an axis: one picture less
+            return None
     return base64.b64encode(stream.getvalue()).decode("ascii")
 
 

@@ -11,9 +11,6 @@ from fddbench.errors import FddbenchError, did_you_mean
 
 __all__ = ["Iterations", "Published", "PublishedRow", "iterations_for", "published", "published_for"]
 
-_DEFAULTS = {"yaw_rate": "table8"}
-_ITERATIONS = {"jet_engine": "robust_hinf_table1"}
-
 
 @dataclass(frozen=True, kw_only=True)
 class PublishedRow:
@@ -95,9 +92,9 @@ def published(table: str) -> Published:
     return Published(**content, printed=printed, inferred=inferred, rows=rows)
 
 
-def published_for(campaign: Mapping[str, Any]) -> Published | None:
+def published_for(campaign: Mapping[str, Any], default: str = "") -> Published | None:
     """Table that a campaign names under ``published``, else the default of its benchmark, else None."""
-    table = campaign.get("published") or _DEFAULTS.get(str(campaign.get("benchmark")))
+    table = campaign.get("published") or default
     return published(table) if table else None
 
 
@@ -121,10 +118,9 @@ class Iterations:
     findings: tuple[Mapping[str, Any], ...]
 
 
-def iterations_for(campaign: Mapping[str, Any]) -> Iterations | None:
-    """Course of the optimisation behind the designs of a benchmark, None where none is printed."""
-    name = _ITERATIONS.get(str(campaign.get("benchmark")))
-    if name is None:
+def iterations_for(name: str) -> Iterations | None:
+    """Course of the optimisation behind the designs of a benchmark by the name of its file, None for ""."""
+    if not name:
         return None
     path = gallery.folder("reports") / "published" / f"{name}.yaml"
     content = yaml.safe_load(path.read_text(encoding="utf-8"))

@@ -1,39 +1,54 @@
 """Scores of a campaign as a small text file, to keep under version control and to compare with a later run."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 import pandas as pd
 import yaml
 
+from fddbench.metrics.alarms import summarize_alarms
 from fddbench.metrics.summary import summarize
 
-__all__ = ["scores", "scores_text"]
+__all__ = ["false_alarms", "scores", "scores_text"]
 
 _COLUMNS = (
-    "flights", "flown", "infeasible", "failed", "true_detection", "over_declared", "false_alarm", "missed", "censored",
-    "isolated", "detections", "detection_time_median_s", "detection_time_p95_s", "detection_time_max_s",
+    "in_sample", "pools", "flights", "flown", "infeasible", "failed", "departed", "wrong_site", "right", "late", "missed",
+    "undecided", "false_alarm", "quiet", "isolated", "over_declared", "detections", "detection_time_median_s",
+    "detection_time_p95_s", "detection_time_max_s", "changes_max", "estimate_bias_median", "estimate_rms_median",
     "margin_healthy_max",
 )  # fmt: skip
+_ALARMS = ("detector", "in_sample", "pools", "distinct_flights", "alarms", "exposure_h")
 
 
-def scores(rows: pd.DataFrame) -> list[dict[str, Any]]:
-    """Counts and times by scenario and detector, plain Python values; nulls are left out."""
+def scores(rows: pd.DataFrame, in_sample: Collection[str] = ()) -> list[dict[str, Any]]:
+    """Counts and times by scenario and detector, plain Python values; nulls are left out, and what is not in sample."""
+    return _lines(summarize(rows, in_sample=in_sample), ("scenario", "detector", *_COLUMNS))
+
+
+def false_alarms(rows: pd.DataFrame, in_sample: Collection[str] = ()) -> list[dict[str, Any]]:
+    """False alarms of distinct flights by detector, and the hours in which they were watched."""
+    return _lines(summarize_alarms(rows, in_sample=in_sample), _ALARMS)
+
+
+def _lines(table: pd.DataFrame, columns: Sequence[str]) -> list[dict[str, Any]]:
     found = []
-    for line in summarize(rows).to_dict("records"):
-        named = {name: _plain(line[name]) for name in ("scenario", "detector", *_COLUMNS)}
-        found.append({name: value for name, value in named.items() if value is not None})
+    for line in table.to_dict("records"):
+        named = {name: _plain(line[name]) for name in columns}
+        found.append({name: value for name, value in named.items() if value is not None and value is not False})
     return found
 
 
-def scores_text(rows: pd.DataFrame, provenance: Mapping[str, object]) -> str:
-    """YAML text: where the scores come from, then one line per scenario and detector."""
+def scores_text(rows: pd.DataFrame, provenance: Mapping[str, object], in_sample: Collection[str] = ()) -> str:
+    """YAML text: where the scores come from, one line per scenario and detector, and one per detector of false alarms."""
     kept = ("campaign", "campaign_sha256", "designs_sha256", "seed", "schema_version", "fddbench")
     head = yaml.safe_dump({"provenance": {name: provenance.get(name) for name in kept}}, sort_keys=False)
-    lines = [
-        yaml.safe_dump(line, sort_keys=False, default_flow_style=True, width=10_000).strip() for line in scores(rows)
-    ]
-    return f"{head}scores:\n" + "".join(f"  - {line}\n" for line in lines)
+    parts = {"scores": scores(rows, in_sample), "false_alarms": false_alarms(rows, in_sample)}
+    return head + "".join(f"{name}:\n{''.join(map(_as_line, lines))}" for name, lines in parts.items())
+
+
+def _as_line(line: Mapping[str, Any]) -> str:
+    text = yaml.safe_dump(dict(line), sort_keys=False, default_flow_style=True, width=10_000).strip()
+    return f"  - {text}\n"
 
 
 def _plain(value: Any) -> Any:
@@ -42,4 +57,4 @@ def _plain(value: Any) -> Any:
         return None
     if isinstance(value, float):
         return round(value, 9)
-    return value if isinstance(value, str) else int(value)
+    return value if isinstance(value, str | bool) else int(value)

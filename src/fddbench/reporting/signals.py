@@ -19,7 +19,7 @@ __all__ = ["recording_picture", "signal_panels", "window", "worst_case"]
 _MOST_PANELS = 3
 
 
-def recording_picture(recording: Recording, rows: pd.DataFrame) -> str:
+def recording_picture(recording: Recording, rows: pd.DataFrame) -> str | None:
     """Picture of one scenario: a line of panels per detector, thin lines for all cases, the worst one highlighted."""
     detectors = list(recording.detectors)
     panels = {name: signal_panels(recording.detectors[name]) for name in detectors}
@@ -43,15 +43,15 @@ def recording_picture(recording: Recording, rows: pd.DataFrame) -> str:
 
 
 def worst_case(recording: Recording, rows: pd.DataFrame, detector: str) -> int:
-    """Position in the recording of the case that went worst: over-declared, undetected, slowest; healthy: largest margin."""
+    """Position in the recording of the case that went worst: a healthy site declared, not found, slowest; else the margin."""
     chosen = rows[np.asarray((rows["scenario"] == recording.scenario) & (rows["detector"] == detector), dtype=bool)]
     order = chosen[np.asarray(chosen["status"] == "ok", dtype=bool)].set_index("case").reindex(list(recording.cases))
     faulty = recording.onset_s is not None
     score = order["detection_time_s" if faulty else "margin_healthy"].to_numpy(dtype=np.float64, na_value=np.nan)
     flown = np.asarray(order["status"].notna(), dtype=bool)
     badness = np.where(flown, np.nan_to_num(score, nan=1e9 if faulty else 0.0), -np.inf)
-    over_declared = order["over_declared"].to_numpy(dtype=np.float64, na_value=np.nan) == 1.0
-    badness = np.where(over_declared, np.inf, badness)
+    wrong = np.asarray(order["wrong_site_time_s"].notna(), dtype=bool)
+    badness = np.where(wrong, np.inf, badness)
     return int(np.argmax(badness)) if len(badness) else 0
 
 
@@ -60,9 +60,12 @@ def window(recording: Recording) -> tuple[int, int]:
     time_s, n_time = recording.time_s, len(recording.time_s)
     if recording.onset_s is None:
         return 0, n_time
-    onset = recording.onset_s
+    onset = float(np.min(recording.onset_s))
     changes = [_changes(of["n_declared"]) for of in recording.detectors.values()]
-    last = max((float(time_s[change[-1] + 1]) for change in changes if len(change)), default=onset + 3.0)
+    last = max(
+        (float(time_s[change[-1] + 1]) for change in changes if len(change)),
+        default=float(np.max(recording.onset_s)) + 3.0,
+    )
     last = max(last, onset) + max(0.4, 0.2 * (last - onset))
     return int(np.searchsorted(time_s, onset - 1.0)), int(np.searchsorted(time_s, last, side="right"))
 
@@ -106,7 +109,7 @@ def _draw_sensors(axes: "Axes", recording: Recording, names: list[str], case: in
     axes.legend(loc="upper left", ncols=len(names), handlelength=1.6, columnspacing=1.0, borderaxespad=0.1)
     number = recording.cases[case] if recording.cases else "none"
     axes.set(title=f"signals, case {number}", ylabel=label(names[0].rpartition("_")[0]), xlabel="time [s]")
-    _mark_onset(axes, recording, kept)
+    _mark_onset(axes, recording, case, kept)
 
 
 def _draw_panel(axes: "Axes", recording: Recording, detector: str, names: list[str], case: int, kept: slice) -> None:
@@ -126,12 +129,12 @@ def _draw_panel(axes: "Axes", recording: Recording, detector: str, names: list[s
         top = np.nanmax(signals["n_declared"], initial=1.0)
         axes.set(ylim=(-0.15, max(top, 2.0) + 0.15), yticks=range(int(max(top, 2.0)) + 1))
     axes.set(ylabel=label(names[0]), xlabel="time [s]")
-    _mark_onset(axes, recording, kept)
+    _mark_onset(axes, recording, case, kept)
 
 
-def _mark_onset(axes: "Axes", recording: Recording, kept: slice) -> None:
+def _mark_onset(axes: "Axes", recording: Recording, case: int, kept: slice) -> None:
     shown = recording.time_s[kept]
     if len(shown) > 1:
         axes.set_xlim(float(shown[0]), float(shown[-1]))
     if recording.onset_s is not None:
-        axes.axvline(recording.onset_s, color=MUTED, lw=0.9, ls=":")
+        axes.axvline(float(recording.onset_s[case]), color=MUTED, lw=0.9, ls=":")

@@ -1,17 +1,26 @@
 """The tables of the page: rows of formatted cells, ready for the template."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from fddbench.metrics.summary import rate_with_interval
+from fddbench.metrics.shares import decided, share
 from fddbench.reporting.formats import DASH, count, interval, percent, present, rate, seconds, signed
 from fddbench.reporting.published import Published
 
-__all__ = ["Cell", "event_lines", "published_lines", "reason_lines", "result_lines"]
+__all__ = [
+    "QUALITY",
+    "RESULTS",
+    "Cell",
+    "event_lines",
+    "published_lines",
+    "quality_lines",
+    "reason_lines",
+    "result_lines",
+]
 
 Line = dict[Any, Any]
 
@@ -26,14 +35,44 @@ class Cell:
     rows: int = 1
 
 
+RESULTS = (
+    *("flown", "healthy site<br>declared", "right", "late", "missed", "unde-<br>cided", "false<br>alarm"),
+    *("false alarms of<br>distinct flights", "per hour"),
+)
+QUALITY = (
+    *(
+        "isolated",
+        "median<br>[s]",
+        "95 %<br>[s]",
+        "max<br>[s]",
+        "max /<br>limit",
+        "changes",
+        "bias of<br>estimate",
+        "rms",
+    ),
+    "healthy<br>margin",
+)
+"""Heads of what `result_lines` and `quality_lines` give after scenario and detector."""
+
+
 def result_lines(summary: pd.DataFrame) -> list[list[Cell]]:
-    """One line of cells per scenario and detector; a scenario's cell spans its detectors."""
+    """Outcomes: one line of cells per scenario and detector; a scenario's cell spans its detectors."""
+    return _grouped(summary, _result)
+
+
+def quality_lines(summary: pd.DataFrame) -> list[list[Cell]]:
+    """Times, flicker, estimates and margins, in the same way."""
+    return _grouped(summary, _quality)
+
+
+def _grouped(summary: pd.DataFrame, cells_of: Callable[[Line], list[Cell]]) -> list[list[Cell]]:
     spans = summary.groupby("scenario", sort=False).size().to_dict()
     lines, previous = [], None
     for line in summary.to_dict("records"):
-        cells = _result(line)
+        cells = [Cell(line["detector"], "in sample" if line["in_sample"] else ""), *cells_of(line)]
         if line["scenario"] != previous:
             note = "healthy" if line["healthy"] else f"limit {_limit(line)}"
+            note += f", pools {line['pools']}" if present(line["pools"]) else ""
             cells.insert(0, Cell(line["scenario"], note, rows=int(spans[line["scenario"]])))
         previous = line["scenario"]
         lines.append(cells)
@@ -46,42 +85,59 @@ def _limit(line: Line) -> str:
 
 
 def _result(line: Line) -> list[Cell]:
-    lost = [f"{count(line[name])} {name}" for name in ("infeasible", "failed") if line[name]]
+    lost = [f"{count(line[name])} {name}" for name in ("infeasible", "failed", "departed") if line[name]]
     hourly = interval(line["false_alarm_low_per_hour"], line["false_alarm_high_per_hour"], rate)
-    exposure = f"{line['exposure_h']:.3g} h" if line["exposure_h"] else ""
     return [
-        Cell(line["detector"]),
         Cell(f"{count(line['flown'])}\u00a0of\u00a0{count(line['flights'])}", ", ".join(lost)),
-        _counted(line, "over_declared", alarm=True),
-        _share(line, "true_detection"),
-        _counted(line, "false_alarm", alarm=True),
-        Cell(rate(line["false_alarm_per_hour"]), f"{hourly} in {exposure}" if hourly else ""),
-        _counted(line, "missed", alarm=True),
-        Cell(count(line["censored"])),
-        _share(line, "isolated"),
+        _counted(line, "wrong_site"),
+        _right(line),
+        *(Cell(count(line[name]), alarm=name != "undecided" and _some(line[name])) for name in _REST),
+        Cell(f"{count(line['alarms'])}\u00a0of\u00a0{count(line['distinct_flights'])}", _ends(line, "alarms")),
+        Cell(rate(line["false_alarm_per_hour"]), hourly),
+    ]
+
+
+def _quality(line: Line) -> list[Cell]:
+    return [
+        Cell(count(line["isolated"])),
         Cell(seconds(line["detection_time_median_s"]), f"n {line['detections']}" if line["detections"] else ""),
         Cell(seconds(line["detection_time_p95_s"])),
         Cell(seconds(line["detection_time_max_s"])),
-        Cell(rate(line["normalized_detection_time_max"])),
-        Cell(rate(line["margin_healthy_max"])),
+        *(Cell(rate(line[name])) for name in _NUMBERS),
     ]
+
+
+_REST = ("late", "missed", "undecided", "false_alarm")
+_NUMBERS = (
+    *("normalized_detection_time_max", "changes_max", "estimate_bias_median", "estimate_rms_median"),
+    "margin_healthy_max",
+)
+
+
+def _some(value: Any) -> bool:
+    return present(value) and bool(value > 0)
 
 
 def _ends(line: Line, name: str) -> str:
     return interval(line[f"{name}_low_percent"], line[f"{name}_high_percent"])
 
 
-def _counted(line: Line, name: str, *, alarm: bool) -> Cell:
-    if not present(line[name]):
-        return Cell(DASH)
+def _counted(line: Line, name: str) -> Cell:
     ends = _ends(line, name)
-    return Cell(count(line[name]), f"{ends} %" if ends else "", alarm=alarm and line[name] > 0)
+    return Cell(count(line[name]), f"{ends} %" if ends else "", alarm=_some(line[name]))
 
 
-def _share(line: Line, name: str) -> Cell:
-    if not present(line[f"{name}_percent"]):
-        return Cell(DASH)
-    return Cell(f"{percent(line[f'{name}_percent'])} %", f"{count(line[name])}: {_ends(line, name)}")
+def _right(line: Line) -> Cell:
+    """Share of the decided flights with its count; of a healthy scenario how many were quiet."""
+    if line["healthy"]:
+        return Cell(count(line["quiet"]), "quiet")
+    if not present(line["right_percent"]):
+        return Cell(DASH, "none decided" if line["flown"] else "")
+    ends = _ends(line, "right")
+    return Cell(
+        f"{percent(line['right_percent'])} %",
+        f"{count(line['right'])} of {count(line['decided'])}{f': {ends}' if ends else ''}",
+    )
 
 
 def published_lines(summary: pd.DataFrame, table: Published) -> list[list[Cell]]:
@@ -142,27 +198,27 @@ def event_lines(events: pd.DataFrame) -> list[list[Cell]]:
     return list(_events(events[np.asarray(events["status"] == "ok", dtype=bool)]))
 
 
+EVENT_OUTCOMES = ("right", "late", "missed", "undecided", "declared_before")
+
+
 def _events(flown: pd.DataFrame) -> Iterator[list[Cell]]:
     for (scenario, event, detector), group in flown.groupby(["scenario", "event", "detector"], sort=False):
         first = group.iloc[0]
-        flags = {
-            name: int(np.sum(_numbers(group, name) == 1.0))
-            for name in ("detected", "missed", "censored", "false_alarm")
-        }
+        outcome = np.asarray(group["outcome"], dtype=object)
+        counts = {name: int(np.sum(outcome == name)) for name in EVENT_OUTCOMES}
         time_s = _numbers(group, "detection_time_s")
         time_s = time_s[~np.isnan(time_s)]
-        share = rate_with_interval("detected", flags["detected"], len(group))
-        ends = interval(share["detected_low_percent"], share["detected_high_percent"])
+        sure = decided(group)
+        found = share("right", (outcome == "right")[sure], group["run"][sure])
+        ends = interval(found["right_low_percent"], found["right_high_percent"])
         until = f"{first['end_s']:g} s" if present(first["end_s"]) else "end"
         yield [
             Cell(str(scenario)),
             Cell(f"{event}: {first['fault']}", f"{first['sites']}, {first['onset_s']:g} s to {until}"),
             Cell(str(detector)),
             Cell(count(len(group))),
-            Cell(count(flags["detected"]), f"{ends} %"),
-            Cell(count(flags["missed"])),
-            Cell(count(flags["censored"])),
-            Cell(count(flags["false_alarm"]), alarm=flags["false_alarm"] > 0),
+            Cell(count(counts["right"]), f"{ends} %" if ends else ""),
+            *(Cell(count(counts[name])) for name in EVENT_OUTCOMES[1:]),
             Cell(seconds(np.quantile(time_s, 0.5, method="inverted_cdf") if len(time_s) else None)),
             Cell(seconds(np.max(time_s) if len(time_s) else None)),
         ]

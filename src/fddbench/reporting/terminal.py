@@ -1,85 +1,179 @@
 """The summary as plain text, for the end of a run in a terminal."""
 
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import pandas as pd
 
-from fddbench.reporting.formats import count, interval, percent, rate, seconds
+from fddbench.reporting.formats import count, interval, percent, present, rate, seconds
+from fddbench.reporting.names import shortened
 
 __all__ = ["to_text"]
 
-_WIDTH = 120
-_HEAD = (
-    *("scenario", "detector", "flown", "over", "true % [95 %]", "false", "per hour [95 %]"),
-    *("missed", "isol.", "median s", "max s", "max/limit"),
+_WIDTH = 80
+_LEAST_NAME = 16
+Line = dict[Any, Any]
+
+
+@dataclass(frozen=True)
+class _Column:
+    """A column: its head, the text of a line, and how soon it is left to --wide (0: never)."""
+
+    head: str
+    text: Callable[[Line], str]
+    leaves: int = 0
+
+
+def _ends(line: Line, name: str, form: Any, unit: str = "percent") -> str:
+    text = interval(line[f"{name}_low_{unit}"], line[f"{name}_high_{unit}"], form).replace(" … ", ", ")
+    return f" [{text}]" if text else ""
+
+
+def _share(name: str) -> Callable[[Line], str]:
+    return lambda line: percent(line[f"{name}_percent"]) + _ends(line, name, percent)
+
+
+def _number(name: str, form: Callable[[Any], str] = count) -> Callable[[Line], str]:
+    return lambda line: form(line[name])
+
+
+_OUTCOMES = (
+    _Column("flown", lambda line: f"{line['flown']}/{line['flights']}", 3),
+    _Column("wrong", _number("wrong_site")),
+    _Column("right", lambda line: count(line["quiet"] if line["healthy"] else line["right"])),
+    _Column("right % [95 %]", _share("right"), 2),
+    _Column("late", _number("late")),
+    _Column("miss", _number("missed")),
+    _Column("und.", _number("undecided")),
+    _Column("false", _number("false_alarm")),
+    _Column("med. s", _number("detection_time_median_s", seconds), 4),
+    _Column("max s", _number("detection_time_max_s", seconds), 9),
+    _Column("max/limit", _number("normalized_detection_time_max", rate), 9),
+    _Column("wrong % [95 %]", _share("wrong_site"), 9),
+    _Column("isolated", _number("isolated"), 9),
+    _Column("changes", _number("changes_max"), 9),
+    _Column("bias", _number("estimate_bias_median", rate), 9),
+    _Column("rms", _number("estimate_rms_median", rate), 9),
+    _Column("margin", _number("margin_healthy_max", rate), 9),
+)
+_ALARMS = (
+    _Column("flights", _number("distinct_flights")),
+    _Column("alarms", _number("alarms")),
+    _Column("share % [95 %]", _share("alarms"), 2),
+    _Column(
+        "per hour [95 %]",
+        lambda line: rate(line["false_alarm_per_hour"]) + _ends(line, "false_alarm", rate, "per_hour"),
+        3,
+    ),
+    _Column("hours", _number("exposure_h", rate), 4),
 )
 _NOTE = (
-    "flown of all; over: flights with more sites declared than faulty; true: classified in time and no false alarm;\n"
-    "false: flights with a false alarm, then their rate per fault-free hour; intervals are exact; counts unless marked"
+    "wrong: a healthy site declared; right: all faults found in time, or healthy and",
+    "quiet; und.: ended before the limit, in no rate; false: alarm before the onset.",
+    "Counts of flown flights, right % of the decided ones. A dash: not defined here.",
 )
+_ALARM_NOTE = ("Each flight once, however many scenarios share it, up to its first alarm.",)
 
 
-def to_text(summary: pd.DataFrame) -> str:
-    """Aligned table of a summary, at most 120 columns wide; names are cut before numbers are.
+def to_text(summary: pd.DataFrame, alarms: pd.DataFrame, *, wide: bool = False) -> str:
+    """Outcomes by scenario and detector, and the false alarms of distinct flights; 80 columns unless wide.
+
+    Columns that do not fit are left to the wide table, which has all of them; names are cut before numbers are.
 
     Parameters
     ----------
-    summary : DataFrame
-        As `fddbench.metrics.summary.summarize` gives it.
+    summary, alarms : DataFrame
+        As `fddbench.metrics.summary.summarize` and `fddbench.metrics.alarms.summarize_alarms` give them.
+    wide : bool
+        All columns, as wide as they are.
 
     Returns
     -------
     str
-        Lines joined by newlines, with a note on the columns.
+        Lines joined by newlines, with notes on the columns.
     """
     if summary.empty:
         return "no rows: nothing was flown"
-    table = [_HEAD, *(_cells(line) for line in summary.to_dict("records"))]
-    widths = [max(len(row[i]) for row in table) for i in range(len(_HEAD))]
-    spare = _WIDTH - sum(widths[2:]) - len(_HEAD) + 1
-    widths[0] = min(widths[0], max(spare - widths[1], spare // 2))
-    widths[1] = min(widths[1], spare - widths[0])
-    lines = [_aligned(row, widths) for row in table]
-    previous = ""
-    for i, row in enumerate(table[1:], start=1):
-        if row[0] == previous:
-            lines[i] = " " * widths[0] + lines[i][widths[0] :]
-        previous = row[0]
-    return "\n".join([lines[0], "-" * len(lines[0]), *lines[1:], "", _NOTE])
+    lines, of_alarms = summary.to_dict("records"), alarms.to_dict("records")
+    columns, width = _fitting(_OUTCOMES, lines, wide=wide)
+    alarm_columns, alarm_width = _fitting(_ALARMS, of_alarms, wide=wide)
+    # the same short name in both tables
+    names = shortened((str(line["detector"]) for line in lines), min(width, alarm_width))
+    parts = [*_scenarios(columns, lines, names, wide=wide), "", *_NOTE, ""]
+    parts += [*_false_alarms(alarm_columns, of_alarms, names), "", *_ALARM_NOTE]
+    if not wide:
+        parts.append("All columns: fddbench run --wide")
+    return "\n".join(line.rstrip() for line in parts)
 
 
-def _aligned(row: tuple[str, ...], widths: list[int]) -> str:
-    names = [_cut(cell, width).ljust(width) for cell, width in zip(row[:2], widths, strict=False)]
-    numbers = [cell.rjust(width) for cell, width in zip(row[2:], widths[2:], strict=True)]
-    return " ".join([*names, *numbers]).rstrip()
+def _scenarios(columns: Sequence[_Column], lines: Sequence[Line], names: Mapping[str, str], *, wide: bool) -> list[str]:
+    room = _WIDTH - max(len(_heading(line, "")) for line in lines)
+    scenarios = shortened((str(line["scenario"]) for line in lines), 10_000 if wide else room)
+    body = _aligned(columns, lines, names)
+    text, previous = [body[0], "-" * len(body[0])], None
+    for line, row in zip(lines, body[1:], strict=True):
+        if line["scenario"] != previous:
+            text.append(_heading(line, scenarios[line["scenario"]]))
+        previous = line["scenario"]
+        text.append(row)
+    return text + _marks(lines)
 
 
-def _cut(text: str, width: int) -> str:
-    return text if len(text) <= width else text[: width - 1] + "…"
+def _heading(line: Line, name: str) -> str:
+    limit_s = line["detection_time_limit_s"]
+    limit = "healthy" if line["healthy"] else f"limit {limit_s:g} s" if present(limit_s) else ""
+    notes = ", ".join(filter(None, (limit, _pooled(line))))
+    return f"{name} ({notes})" if notes else name
 
 
-def _bracket(low: Any, high: Any, form: Any) -> str:
-    text = interval(low, high, form).replace(" … ", ", ")
-    return f" [{text}]" if text else ""
+def _pooled(line: Line) -> str:
+    return f"pools {line['pools']}" if present(line["pools"]) else ""
 
 
-def _cells(line: dict[Any, Any]) -> tuple[str, ...]:
-    true = percent(line["true_detection_percent"])
-    hourly = rate(line["false_alarm_per_hour"])
-    ends = (line["true_detection_low_percent"], line["true_detection_high_percent"])
-    hourly_ends = (line["false_alarm_low_per_hour"], line["false_alarm_high_per_hour"])
-    cells = (
-        line["scenario"],
-        line["detector"],
-        f"{line['flown']}/{line['flights']}",
-        count(line["over_declared"]),
-        true + _bracket(*ends, percent),
-        count(line["false_alarm"]),
-        hourly + _bracket(*hourly_ends, rate),
-        count(line["missed"]),
-        count(line["isolated"]),
-        seconds(line["detection_time_median_s"]),
-        seconds(line["detection_time_max_s"]),
-        rate(line["normalized_detection_time_max"]),
-    )
-    return tuple(cell.replace("\u202f", "") for cell in cells)
+def _marks(lines: Sequence[Line]) -> list[str]:
+    return ["* in sample: tuned on flights of this campaign"] if any(line["in_sample"] for line in lines) else []
+
+
+def _false_alarms(columns: Sequence[_Column], lines: Sequence[Line], names: Mapping[str, str]) -> list[str]:
+    body = _aligned(columns, lines, names)
+    pooled = next((_pooled(line) for line in lines if _pooled(line)), "")
+    title = f"False alarms of distinct flights{f' ({pooled})' if pooled else ''}"
+    return [title, body[0], "-" * len(body[0]), *body[1:]]
+
+
+def _fitting(columns: Sequence[_Column], lines: Sequence[Line], *, wide: bool) -> tuple[list[_Column], int]:
+    """Columns that fit beside the names, and the characters that are left for these."""
+    longest = max(len(str(line["detector"])) for line in lines)
+    if wide:
+        return list(columns), longest
+    kept = [column for column in columns if column.leaves < 9]
+    while (room := _room(kept, lines)) < min(longest, _LEAST_NAME) and any(column.leaves for column in kept):
+        kept.remove(max(kept, key=lambda column: column.leaves))
+    return kept, min(longest, max(room, 3))
+
+
+def _room(columns: Sequence[_Column], lines: Sequence[Line]) -> int:
+    """Characters left for names of detectors, after an indent of two and a mark."""
+    return _WIDTH - 3 - sum(1 + _width(column, lines) for column in columns)
+
+
+def _width(column: _Column, lines: Sequence[Line]) -> int:
+    return max(len(column.head), *(len(_plain(column.text(line))) for line in lines))
+
+
+def _aligned(columns: Sequence[_Column], lines: Sequence[Line], short: Mapping[str, str]) -> list[str]:
+    """Head and lines of a table whose first column holds the names, with a mark where the detector was tuned here."""
+    names = [short[line["detector"]] + "*" * bool(line["in_sample"]) for line in lines]
+    widths = [_width(column, lines) for column in columns]
+    first = max(map(len, names))
+    head = [" " * (first + 2), *(column.head.rjust(w) for column, w in zip(columns, widths, strict=True))]
+    body = [
+        [f"  {name:<{first}}", *(_plain(column.text(line)).rjust(w) for column, w in zip(columns, widths, strict=True))]
+        for name, line in zip(names, lines, strict=True)
+    ]
+    return [" ".join(row) for row in (head, *body)]
+
+
+def _plain(text: str) -> str:
+    return text.replace("\u202f", "")

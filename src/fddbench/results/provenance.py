@@ -2,7 +2,7 @@
 
 import hashlib
 import platform
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
 
@@ -18,6 +18,7 @@ def collect(
     campaign: str,
     campaign_sha256: str,
     designs_sha256: Mapping[str, str],
+    scenarios: Sequence[str],
     seed: int,
     files: Mapping[str, bytes],
 ) -> dict[str, object]:
@@ -26,6 +27,7 @@ def collect(
         "campaign": campaign,
         "campaign_sha256": campaign_sha256,
         "designs_sha256": dict(designs_sha256),
+        "scenarios": list(scenarios),
         "seed": seed,
         "files": {name: hashlib.sha256(content).hexdigest() for name, content in sorted(files.items())},
         "schema_version": SCHEMA_VERSION,

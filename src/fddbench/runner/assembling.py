@@ -10,7 +10,7 @@ from fddbench.errors import FddbenchError, place_of, reason_of
 from fddbench.interfaces import Loop, Options
 from fddbench.metrics.scoring import Scoring
 from fddbench.plugin_files import noticed_reads
-from fddbench.runner.assembly import Assembly, has_events
+from fddbench.runner.assembly import Assembly
 from fddbench.runner.soundness import require_sound
 
 __all__ = ["assemble", "loop_of"]
@@ -65,13 +65,13 @@ def assemble(campaign: Campaign) -> Assembly:
     """
     planned = plan(campaign)
     loop = loop_of(planned)
-    n_events = max((len(s.faults) for s in planned.scenarios if has_events(s)), default=0)
+    n_faults = max((len(scenario.faults) for scenario in planned.scenarios), default=0)
     found = build_detectors(campaign.designs, loop.bus)
     assembly = Assembly(
         plan=planned,
         loop=loop,
         detectors={name: Adapted(detector, loop.bus) for name, detector in found.items()},
-        scoring=Scoring(len(loop.bus.sites), n_events),
+        scoring=Scoring(loop.bus.names, n_faults, campaign.sample_s),
     )
     faults = [fault for scenario in campaign.scenarios for fault in scenario.faults]
     if any(map(_foreign, (campaign.bench, campaign.plant, loop, *campaign.chosen.values(), *faults))):

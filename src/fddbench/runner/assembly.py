@@ -1,7 +1,8 @@
 """What flies the cases of a campaign: its closed loop, its detectors, and batches of cases with all their constants."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -10,11 +11,14 @@ import numpy.typing as npt
 from fddbench.blocks import philox
 from fddbench.blocks.consumers import fault_number
 from fddbench.blocks.drawn import Draws
+from fddbench.campaign.addresses import Addresses
 from fddbench.campaign.plan import Plan, PlannedScenario
 from fddbench.designs.adapted import Adapted
-from fddbench.faults.timing import first_samples, last_sample
-from fddbench.interfaces import FlightFaults, Flights, Floats, Loop
-from fddbench.metrics.scoring import NEVER, EventTimes, Scoring
+from fddbench.faults.timing import first_samples
+from fddbench.interfaces import NEVER, Fault, FlightFaults, Flights, Floats, Loop
+from fddbench.metrics.score import FaultTimes
+from fddbench.metrics.scoring import Scoring
+from fddbench.runner.faulty import BatchFaults, batch_faults
 
 __all__ = ["BEFORE_START", "Assembly", "Batch", "has_events"]
 
@@ -30,10 +34,14 @@ class Batch:
 
     Attributes
     ----------
-    cases, scenario, run : (n_cases,) arrays
-        Case numbers, positions of their scenarios, and run numbers.
+    cases : (n_cases,) array
+        Numbers of the cases in this plan; no part of any result.
+    scenario, point, level, run : (n_cases,) arrays
+        Their addresses, see `fddbench.campaign.addresses.Addresses`.
     parameters : mapping of str to (n_cases,) arrays
         True parameter values.
+    faults : BatchFaults
+        What was drawn and swept of the faults, and their times.
     state, constants, score_constants : (n_rows, n_cases) arrays
         Of the loop and of the scoring.
     scenario_stream : (n_cases,) array
@@ -44,8 +52,11 @@ class Batch:
 
     cases: Cases
     scenario: Cases
+    point: Cases
+    level: Cases
     run: Cases
     parameters: Mapping[str, Floats]
+    faults: BatchFaults
     state: Floats
     constants: Floats
     score_constants: Floats
@@ -57,8 +68,11 @@ class Batch:
         return Batch(
             cases=self.cases[which],
             scenario=self.scenario[which],
+            point=self.point[which],
+            level=self.level[which],
             run=self.run[which],
             parameters={name: values[which] for name, values in self.parameters.items()},
+            faults=self.faults.take(which),
             state=self.state[:, which],
             constants=self.constants[:, which],
             score_constants=self.score_constants[:, which],
@@ -85,7 +99,7 @@ class Assembly:
     detectors : mapping of str to Adapted
         By the names of their designs.
     scoring : Scoring
-        Score of one detector.
+        Score of a detector that isolates all sites and estimates nothing; its constants are those of all detectors.
     """
 
     plan: Plan
@@ -93,10 +107,19 @@ class Assembly:
     detectors: Mapping[str, Adapted]
     scoring: Scoring
 
+    @cached_property
+    def scoring_of(self) -> Mapping[str, Scoring]:
+        """Score of each detector: by its sites or its alarm, with its estimate if it has one."""
+        return {
+            name: self.scoring.of(watches=own.watches, isolates=own.isolates, estimates=own.estimates)
+            for name, own in self.detectors.items()
+        }
+
     def batch(self, cases: Cases) -> Batch:
         """Constants and states of cases, a pure function of campaign, seed and case number."""
-        scenario, run = self.plan.locate(cases)
-        parameters = self.plan.parameters(cases)
+        at, parameters = self.plan.locate(cases), self.plan.parameters(cases)
+        scenario, run = at.scenario, at.run
+        lists, faults = batch_faults(self.plan, at)
         outside = self._outside(parameters, len(cases))
         streams = np.array([planned.stream for planned in self.plan.scenarios], dtype=np.int64)[scenario]
         n_cases, loop = len(cases), self.loop
@@ -104,7 +127,7 @@ class Assembly:
             Flights(
                 parameters=parameters,
                 manoeuvres=[self.plan.scenarios[s].manoeuvre for s in scenario],
-                faults=self._faults(scenario, run, streams),
+                faults=FlightFaults(lists=lists, which=scenario, uniform=self._uniform(run, streams)),
                 normals=self._before(run, streams),
             )
         )
@@ -112,11 +135,14 @@ class Assembly:
         return Batch(
             cases=cases,
             scenario=scenario,
+            point=at.point,
+            level=at.level,
             run=run,
             parameters=parameters,
+            faults=faults,
             state=loop.states.pack(state, n_cases),
             constants=loop.constants.pack(loop.constants.spread(prepared.constants, n_cases), n_cases),
-            score_constants=self._score_rows(scenario),
+            score_constants=self._score_rows(at, lists, faults, self.plan.n_samples(cases)),
             scenario_stream=streams,
             infeasible_reason=tuple(a or b for a, b in zip(outside, prepared.infeasible_reason, strict=True)),
         )
@@ -130,10 +156,10 @@ class Assembly:
                 reasons[i] = f"drawn {limit.name} {drawn[i]:g} lies outside {limit.low:g} to {limit.high:g}"
         return reasons
 
-    def nothing_scored(self, batch: Batch) -> Floats:
+    def nothing_scored(self, batch: Batch, scoring: Scoring) -> Floats:
         """Score of a detector that saw nothing of a batch, (n_score, n_cases)."""
-        n_cases, states = len(batch.cases), self.scoring.states
-        begun = self.scoring.start(self.scoring.constants.unpack(batch.score_constants))
+        n_cases, states = len(batch.cases), scoring.states
+        begun = scoring.start(scoring.constants.unpack(batch.score_constants))
         packed: Floats = states.pack(states.spread(begun, n_cases), n_cases)
         return packed
 
@@ -156,37 +182,30 @@ class Assembly:
         each = [generator((sample, number, run, words[stream]), key) for number, stream in draws.streams]
         return np.concatenate([*each, np.zeros((0, *shape))])
 
-    def _faults(self, scenario: Cases, run: Cases, streams: Cases) -> FlightFaults:
-        """Faults of flights, with a uniform number for every slot and site."""
-        lists = [planned.faults for planned in self.plan.scenarios]
-        slots, sites = max((len(one) for one in lists), default=0), len(self.loop.bus.sites)
+    def _uniform(self, run: Cases, streams: Cases) -> Floats:
+        """A number in (0, 1) for every line, site and flight, (n_lines, n_sites, n_cases): what a fault draws once."""
+        slots = max((len(planned.faults) for planned in self.plan.scenarios), default=0)
+        sites = len(self.loop.bus.sites)
         uniform = np.empty((slots, sites, len(run)))
         for slot in range(slots):
             for site in range(sites):
                 consumer, place = fault_number(slot, site)
                 counter = (BEFORE_START, consumer, run, streams)
                 uniform[slot, site] = philox.uniforms(counter, self.plan.campaign.seed)[place]
-        return FlightFaults(lists=lists, which=scenario, uniform=uniform)
+        return uniform
 
-    def _score_rows(self, scenario: Cases) -> Floats:
+    def _score_rows(
+        self, at: Addresses, lists: Sequence[Sequence[Fault]], faults: BatchFaults, n_samples: Cases
+    ) -> Floats:
         """Constants of the scoring of flights, (n_rows, n_cases)."""
-        rows = np.empty((self.scoring.constants.size, len(scenario)))
-        for s in np.unique(scenario).tolist():
-            mine = scenario == s
-            rows[:, mine] = self._of_scenario(self.plan.scenarios[s], int(mine.sum()))
-        return rows
-
-    def _of_scenario(self, planned: PlannedScenario, n_cases: int) -> Floats:
-        sample_s, sites = self.plan.campaign.sample_s, self.loop.bus.names
-        events = []
-        for fault in planned.faults if has_events(planned) else ():
-            first = min(first_samples(fault, sites, sample_s))
-            own = np.array([[float(site in fault.sites)] for site in sites])
-            events.append(EventTimes(first=first, last=last_sample(fault, sample_s), own=own))
-        return self.scoring.rows(
-            k0=NEVER if planned.k0 is None else float(planned.k0),
-            n_faulty=planned.n_faulty,
-            last=float(planned.n_samples - 1),
-            events=events,
-            n_cases=n_cases,
-        )
+        sites, n_cases = self.loop.bus.names, len(at.run)
+        begins = np.full((len(faults.first), len(sites), n_cases), NEVER)
+        for s in np.unique(at.scenario).tolist():
+            mine = at.scenario == s
+            for line, fault in enumerate(lists[s]):
+                for row, first in enumerate(first_samples(fault, sites, self.plan.campaign.sample_s)):
+                    begins[line, row, mine] = first
+        own = np.where(begins < NEVER, 1.0, 0.0)
+        each = [FaultTimes(first=faults.first[j], last=faults.last[j], own=own[j]) for j in range(len(faults.first))]
+        faulty_from = begins.min(axis=0, initial=NEVER)
+        return self.scoring.rows(last=n_samples - 1.0, faults=each, faulty_from=faulty_from, n_cases=n_cases)

@@ -25,8 +25,7 @@ def cut(plan: Plan, cases: Cases, *, size: int, jobs: int) -> list[Cases]:
     Flights of equal length fly together, since a chunk flies as long as its longest; no chunk holds more than `size`
     cases, nor more than its share when there are too few for all workers.
     """
-    scenario, _ = plan.locate(cases)
-    length = np.array([planned.n_samples for planned in plan.scenarios], dtype=np.int64)[scenario]
+    length = plan.n_samples(cases)
     chunks: list[Cases] = []
     for samples in sorted(set(length.tolist()), reverse=True):
         alike = cases[length == samples]

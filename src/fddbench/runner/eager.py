@@ -8,8 +8,7 @@ import numpy as np
 
 from fddbench.blocks.layout import Nothing
 from fddbench.errors import reason_of
-from fddbench.interfaces import Floats
-from fddbench.metrics.scoring import NEVER
+from fddbench.interfaces import NEVER, Floats, Sample
 from fddbench.runner.assembly import Assembly, Batch
 from fddbench.runner.fused import shown
 
@@ -44,9 +43,9 @@ class DetectorFlight:
         self, assembly: Assembly, name: str, batch: Batch, recorded: Sequence[str] = (), *, alone: bool = True
     ) -> None:
         self.assembly, self.name, self.batch, self.alone = assembly, name, batch, alone
-        self.detector, scoring, n_cases = assembly.detectors[name], assembly.scoring, len(batch.cases)
-        self.constants = scoring.constants.unpack(batch.score_constants)
-        self.score = scoring.states.spread(scoring.start(self.constants), n_cases)
+        self.detector, self.scoring, n_cases = assembly.detectors[name], assembly.scoring_of[name], len(batch.cases)
+        self.constants = self.scoring.constants.unpack(batch.score_constants)
+        self.score = self.scoring.states.spread(self.scoring.start(self.constants), n_cases)
         self.raised = ""
         self.kept: dict[str, list[Floats]] = {full: [] for full in recorded if full.startswith(f"{name}:")}
         try:
@@ -54,21 +53,22 @@ class DetectorFlight:
         except (Exception, SystemExit) as error:  # a user's detector may raise anything; it becomes a row
             self.raised = reason_of(error)
 
-    def step(self, measured: SimpleNamespace, sample: float, departed: Floats) -> None:
-        """Verdict on one sample, scored."""
+    def step(self, seen: Sample, sample: float, departed: Floats) -> None:
+        """Verdict on what is measured at one sample, scored."""
         if self.raised or not (sample < departed).any():
             return
         n_cases = len(self.batch.cases)
         try:
-            after, verdict = self.detector.step(self.state, Nothing(), self._drawn(int(sample)), measured)
+            after, verdict = self.detector.step(self.state, Nothing(), self._drawn(int(sample)), seen.measured)
             self.detector.states.check(after, n_cases)
-            self.score, number = self.assembly.scoring.step(
-                self.score, self.constants, Nothing(), verdict, sample, sample < departed
+            actual, alive = self.scoring.actual(seen), sample < departed
+            self.score, number = self.scoring.step(
+                self.score, self.constants, Nothing(), verdict, actual, sample, alive
             )
             self.state = after
-            seen = shown(verdict, number) if self.kept else {}
+            shows = shown(verdict, number) if self.kept else {}
             for full, rows in self.kept.items():
-                rows.append(np.broadcast_to(np.asarray(seen[full.split(":", 1)[1]], dtype=float), (n_cases,)))
+                rows.append(np.broadcast_to(np.asarray(shows[full.split(":", 1)[1]], dtype=float), (n_cases,)))
         except (Exception, SystemExit) as error:  # a user's detector may raise anything; it becomes a row
             self.raised = reason_of(error)
 
@@ -83,7 +83,7 @@ class DetectorFlight:
         """Final score, (n_score, n_cases), and what was raised for each case ("": nothing)."""
         n_cases = len(self.batch.cases)
         if not self.raised or (n_cases == 1 and self.alone):
-            return self.assembly.scoring.states.pack(self.score, n_cases), [self.raised] * n_cases
+            return self.scoring.states.pack(self.score, n_cases), [self.raised] * n_cases
         # halves, so that the sound cases of a large batch still fly side by side
         halves = [half for half in np.array_split(np.arange(n_cases), 2) if len(half)]
         parts = [_fly(self.assembly, self.batch.take(half), [self.name], ())[2][0].finish() for half in halves]
@@ -124,7 +124,7 @@ def _fly(
     departed = np.full(len(batch.cases), NEVER)
     flights = [DetectorFlight(assembly, name, batch, recorded) for name in names]
     kept: dict[str, list[Floats]] = {
-        full: [] for full in recorded if full.split(":")[0] in ("measured", "truth", "departed")
+        full: [] for full in recorded if full.split(":")[0] in ("measured", "truth", "voted", "added", "departed")
     }
     last = int(assembly.scoring.constants.unpack(batch.score_constants).last.max())
     with np.errstate(all="ignore"):
@@ -135,8 +135,8 @@ def _fly(
                 departed = np.where(seen.departed, np.minimum(departed, sample), departed)
                 _protect(seen.measured)
                 for flight in flights:
-                    flight.step(seen.measured, sample, departed)
-                _keep(kept, seen.measured, seen.truth, departed)
+                    flight.step(seen, sample, departed)
+                _keep(kept, seen, departed)
                 if flights and not recorded and all(flight.raised for flight in flights):
                     return departed, {}, flights
     return departed, {full: np.array(rows) for full, rows in kept.items()}, flights
@@ -150,11 +150,10 @@ def _protect(measured: SimpleNamespace) -> None:
         setattr(measured, name, view)
 
 
-def _keep(
-    kept: Mapping[str, list[Floats]], measured: SimpleNamespace, truth: Mapping[str, Floats], departed: Floats
-) -> None:
+def _keep(kept: Mapping[str, list[Floats]], seen: Sample, departed: Floats) -> None:
     """Write one sample of the loop's signals."""
     for full, rows in kept.items():
         source, _, name = full.partition(":")
-        value = departed if source == "departed" else truth[name] if source == "truth" else getattr(measured, name)
-        rows.append(np.atleast_2d(value))
+        single = {"departed": departed, "added": seen.added}
+        named = {"measured": vars(seen.measured), "truth": seen.truth, "voted": seen.voted}
+        rows.append(np.atleast_2d(named[source][name] if source in named else single[source]))

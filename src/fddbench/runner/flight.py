@@ -8,7 +8,8 @@ from types import SimpleNamespace
 import numpy as np
 
 from fddbench.blocks import kernel, llvm
-from fddbench.interfaces import Floats
+from fddbench.interfaces import Floats, Sample
+from fddbench.metrics.scoring import Scoring
 from fddbench.runner.assembly import Assembly, Batch
 from fddbench.runner.eager import DetectorFlight, fly_eagerly
 from fddbench.runner.fused import Fused, why_opaque
@@ -34,7 +35,9 @@ class Outcome:
     errors : dict of str to list of str
         By detector, what its step raised for each case ("": nothing).
     recorded : dict of str to (n_time, n_rows, n_cases) arrays
-        What was asked for: ``measured:NAME``, ``truth:NAME``, ``DETECTOR:NAME``.
+        What was asked for: ``measured:NAME``, ``truth:NAME``, ``voted:NAME``, ``added``, ``DETECTOR:NAME``.
+    scoring : dict of str to Scoring
+        How what is no detector of the campaign was scored.
     """
 
     batch: Batch
@@ -42,6 +45,7 @@ class Outcome:
     departed: Floats
     errors: dict[str, list[str]] = field(default_factory=dict)
     recorded: dict[str, Floats] = field(default_factory=dict)
+    scoring: dict[str, Scoring] = field(default_factory=dict)
 
 
 class Flyer:
@@ -95,7 +99,14 @@ class Flyer:
         """Outputs to store: those asked for, and the measured bus where an opaque detector reads it."""
         own = tuple(name for name in recorded if name.split(":")[0] not in self.opaque)
         bus = tuple(f"measured:{name}" for name in self.assembly.loop.bus.signals) if self.opaque else ()
-        return tuple(dict.fromkeys((*own, *bus, *(("departed",) if self.opaque else ()))))
+        departed = ("departed",) if self.opaque else ()
+        return tuple(dict.fromkeys((*own, *bus, *self._truths, *departed)))
+
+    @cached_property
+    def _truths(self) -> tuple[str, ...]:
+        """What the estimates of opaque detectors are scored against, where the benchmark says it."""
+        wanted = {self.assembly.scoring_of[name].truth for name in self.opaque}
+        return tuple(sorted(wanted & self.fused.program().outputs.keys())) if wanted - {""} else ()
 
     def _fly_compiled(self, batch: Batch, recorded: tuple[str, ...]) -> Outcome:
         assembly, fused = self.assembly, self.fused
@@ -119,7 +130,7 @@ class Flyer:
         x = fused.states.unpack(state)
         outcome = Outcome(
             batch=batch,
-            scores={name: assembly.scoring.states.pack(x.scores[i]) for i, name in enumerate(fused.detectors)},
+            scores={name: fused.scoring[i].states.pack(x.scores[i]) for i, name in enumerate(fused.detectors)},
             departed=x.departed,
             recorded={name: np.concatenate(parts) for name, parts in kept.items()},
         )
@@ -142,5 +153,8 @@ class Flyer:
                         for name, rows in signals.items()
                     }
                 )
+                voted = {name[6:]: rows[j, 0] for name, rows in recorded.items() if name.startswith("voted:")}
+                added = recorded["added"][j] if "added" in recorded else None
+                seen = Sample(measured=measured, truth={}, departed=departed[j] < np.inf, added=added, voted=voted)
                 for flight in opaque:
-                    flight.step(measured, float(first + j), departed[j])
+                    flight.step(seen, float(first + j), departed[j])

@@ -12,8 +12,9 @@ from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, leaves, mapp
 from fddbench.blocks.program import Program, trace
 from fddbench.designs.adapted import Adapted
 from fddbench.errors import DesignError, FddbenchError, reason_of
-from fddbench.interfaces import Bus, Floats, Loop, Sample, Verdict
-from fddbench.metrics.scoring import NEVER, ScoreConstants, ScoreState, Scoring
+from fddbench.interfaces import NEVER, Bus, Floats, Loop, Sample, Verdict
+from fddbench.metrics.score import ScoreConstants, ScoreState
+from fddbench.metrics.scoring import Scoring
 from fddbench.runner.assembly import Assembly, Batch
 
 __all__ = ["Fused", "detector_program", "shown", "why_opaque"]
@@ -105,35 +106,40 @@ class Fused:
         What flies.
     detectors : mapping of str to Adapted
         Those to fuse, by the names of their designs.
-    scoring : Scoring
-        Score of one detector.
+    scoring : mapping of str to Scoring
+        Score of each of them, all with the same constants.
+    nobody : Scoring
+        Those constants, where there is no detector.
     """
 
-    def __init__(self, loop: Loop, detectors: Mapping[str, Adapted], scoring: Scoring) -> None:
-        self.loop, self.detectors, self.scoring = loop, dict(detectors), scoring
-        own = tuple(self.detectors.values())
+    def __init__(
+        self, loop: Loop, detectors: Mapping[str, Adapted], scoring: Mapping[str, Scoring], nobody: Scoring
+    ) -> None:
+        self.loop, self.detectors, self.nobody = loop, dict(detectors), nobody
+        own, self.scoring = tuple(self.detectors.values()), tuple(scoring[name] for name in detectors)
         self.states = Layout(
             FusedState(
                 loop=loop.states.shape,
                 departed=ROW,
                 detectors=tuple(detector.states.shape for detector in own),
-                scores=tuple(scoring.states.shape for _ in own),
+                scores=tuple(score.states.shape for score in self.scoring),
             )
         )
-        self.constants = Layout(FusedConstants(loop=loop.constants.shape, score=scoring.constants.shape))
+        self.constants = Layout(FusedConstants(loop=loop.constants.shape, score=nobody.constants.shape))
         drawn = tuple(detector.draws.names for detector in own)
         self.draws: Draws[FusedDraws] = Draws(FusedDraws(loop=loop.draws.names, detectors=drawn))
 
     @classmethod
     def of(cls, assembly: Assembly, detectors: tuple[str, ...]) -> "Fused":
         """Everything of an assembly, with some of its detectors."""
-        return cls(assembly.loop, {name: assembly.detectors[name] for name in detectors}, assembly.scoring)
+        own = {name: assembly.detectors[name] for name in detectors}
+        return cls(assembly.loop, own, assembly.scoring_of, assembly.scoring)
 
     def packed(self, batch: Batch) -> tuple[Floats, Floats]:
         """State before sample 0 and constants of a batch, (n_rows, n_cases) each."""
         n_cases = len(batch.cases)
         c = FusedConstants(
-            loop=self.loop.constants.unpack(batch.constants), score=self.scoring.constants.unpack(batch.score_constants)
+            loop=self.loop.constants.unpack(batch.constants), score=self.nobody.constants.unpack(batch.score_constants)
         )
         begun = self.states.spread(self.start(c), n_cases)
         state = self.states.pack(begun, n_cases)
@@ -147,7 +153,7 @@ class Fused:
             loop=self.loop.start(c.loop),
             departed=NEVER,
             detectors=tuple(detector.start(Nothing()) for detector in self.detectors.values()),
-            scores=tuple(self.scoring.start(c.score) for _ in self.detectors),
+            scores=tuple(scoring.start(c.score) for scoring in self.scoring),
         )
 
     def step(self, x: FusedState, c: FusedConstants, n: FusedDraws, sample: Row) -> tuple[FusedState, Flown]:
@@ -155,10 +161,11 @@ class Fused:
         loop, seen = self.loop.step(x.loop, c.loop, n.loop, sample)
         departed = np.where(seen.departed, np.minimum(x.departed, sample), x.departed)
         kept, scores, verdicts, numbers = [], [], [], []
-        parts = zip(self.detectors.values(), x.detectors, n.detectors, x.scores, strict=True)
-        for detector, state, numbers_drawn, score in parts:
+        parts = zip(self.detectors.values(), x.detectors, n.detectors, self.scoring, x.scores, strict=True)
+        for detector, state, numbers_drawn, scoring, score in parts:
             after, verdict = detector.step(state, Nothing(), numbers_drawn, seen.measured)
-            scored, number = self.scoring.step(score, c.score, Nothing(), verdict, sample, sample < departed)
+            actual, alive = scoring.actual(seen), sample < departed
+            scored, number = scoring.step(score, c.score, Nothing(), verdict, actual, sample, alive)
             kept.append(after)
             scores.append(scored)
             verdicts.append(verdict)
@@ -171,12 +178,12 @@ class Fused:
 
         Rows of detectors and scores that start with one and the same number share a key; rows of the loop never do.
         """
-        nowhere = mapped(lambda _: None, self.scoring.constants.shape)  # what depends on constants is no number
+        nowhere = mapped(lambda _: None, self.nobody.constants.shape)  # what depends on constants is no number
         starts = (
             *(d.start(Nothing()) for d in self.detectors.values()),
-            *([self.scoring.start(nowhere)] * len(self.detectors)),
+            *(scoring.start(nowhere) for scoring in self.scoring),
         )
-        layouts = (*(d.states for d in self.detectors.values()), *([self.scoring.states] * len(self.detectors)))
+        layouts = (*(d.states for d in self.detectors.values()), *(scoring.states for scoring in self.scoring))
         keys: list[Hashable] = list(range(self.loop.states.size + 1))
         for start, layout in zip(starts, layouts, strict=True):
             for (_, value), rows in zip(leaves(start), layout.counts.values(), strict=True):
@@ -201,6 +208,8 @@ class Fused:
         bus, seen = self.loop.bus, flown.sample
         found: dict[str, Rows] = {f"measured:{name}": getattr(seen.measured, name) for name in bus.signals}
         found |= {f"truth:{name}": value for name, value in seen.truth.items()}
+        found |= {f"voted:{name}": value for name, value in seen.voted.items()}
+        found |= {} if seen.added is None else {"added": seen.added}
         for name, verdict, number in zip(self.detectors, flown.verdicts, flown.numbers, strict=True):
             found |= {f"{name}:{signal}": rows for signal, rows in shown(verdict, number).items()}
         return found

@@ -16,8 +16,8 @@ def healthy_signals(assembly: Assembly, detector: str, names: Sequence[str]) -> 
     """Signals of a detector by name, (n_time, n_cases), of all healthy flights, chunk by chunk."""
     flyer = Flyer(assembly)
     for planned in assembly.plan.scenarios:
-        for first in range(0, 0 if planned.faults else planned.n_runs, CHUNK):
-            last = min(first + CHUNK, planned.n_runs)
+        for first in range(0, 0 if planned.faults else planned.n_cases, CHUNK):
+            last = min(first + CHUNK, planned.n_cases)
             batch = assembly.batch(planned.first_case + np.arange(first, last, dtype=np.int64))
             feasible = np.flatnonzero([reason == "" for reason in batch.infeasible_reason])
             if len(feasible):

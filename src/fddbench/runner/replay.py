@@ -1,15 +1,15 @@
 """Flies cases of a finished campaign again and keeps the signals: for pictures and for a close look."""
 
 import re
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 import pandas as pd
 
 from fddbench.blocks.philox import philox4x32
+from fddbench.campaign.addresses import Address
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.plan import PlannedScenario
 from fddbench.interfaces import Floats, Recording
@@ -26,33 +26,36 @@ MOST_CASES = 50
 
 _NUMBER = re.compile(r"_[0-9]+$")
 
-Cases = npt.NDArray[np.int64]
+Chosen = Mapping[str, Sequence[Address]]
+"""Cases by their scenarios."""
 
 
-def sampled_cases(rows: pd.DataFrame, *, seed: int, most: int = MOST_CASES) -> dict[str, Cases]:
-    """Cases to show by scenario: a seeded sample of those flown, and the worst of every detector.
+def sampled_cases(rows: pd.DataFrame, *, seed: int, most: int = MOST_CASES) -> dict[str, tuple[str, ...]]:
+    """Names of cases to show by scenario: a seeded sample of those flown, and the worst of every detector.
 
     Worst is the slowest detection, or the largest margin of a healthy flight.
     """
-    found: dict[str, Cases] = {}
+    found: dict[str, tuple[str, ...]] = {}
     for scenario, group in rows[rows["status"] == "ok"].groupby("scenario", sort=False):
-        cases = np.unique(group["case"].to_numpy(dtype=np.int64))
-        order = np.argsort(philox4x32((cases & 0xFFFFFFFF, 0, 0, 0), seed)[0], kind="stable")
-        worst = [_worst(of_one) for _, of_one in group.groupby("detector", sort=False)]
-        found[str(scenario)] = np.unique(np.concatenate([cases[order[:most]], worst]).astype(np.int64))
+        flights = group.drop_duplicates("case")
+        point, level, run = (flights[name].to_numpy(dtype=np.int64) for name in ("point", "level", "run"))
+        order = np.argsort(philox4x32((run, point, level, 0), seed)[0], kind="stable")
+        names = flights["case"].to_numpy()
+        chosen = {*names[order[:most]], *(_worst(of_one) for _, of_one in group.groupby("detector", sort=False))}
+        found[str(scenario)] = tuple(str(name) for name in names if name in chosen)
     return found
 
 
-def _worst(rows: pd.DataFrame) -> int:
+def _worst(rows: pd.DataFrame) -> str:
     """Case of the slowest detection (none counts as slowest), or of the largest healthy margin."""
     by = "margin_healthy" if (rows["n_faulty"] == 0).all() else "detection_time_s"
     badness = rows[by].astype("float64[pyarrow]").fillna(np.inf if by == "detection_time_s" else -1.0)
-    return int(rows["case"].iloc[int(np.argmax(badness.to_numpy(dtype=float)))])
+    return str(rows["case"].iloc[int(np.argmax(badness.to_numpy(dtype=float)))])
 
 
 def replay(
     folder: Path,
-    cases: Mapping[str, Cases] | None = None,
+    cases: Chosen | None = None,
     *,
     seconds: Mapping[str, float] | None = None,
     signals: Collection[str] | None = None,
@@ -64,7 +67,7 @@ def replay(
 
 def replay_campaign(
     campaign: Campaign,
-    cases: Mapping[str, Cases] | None = None,
+    cases: Chosen | None = None,
     *,
     seconds: Mapping[str, float] | None = None,
     signals: Collection[str] | None = None,
@@ -76,8 +79,8 @@ def replay_campaign(
     ----------
     campaign : Campaign
         What flies.
-    cases : mapping of str to array, optional
-        Case numbers by scenario; all cases by default.
+    cases : mapping of str to sequence, optional
+        Cases by scenario, each by its name ``jam_a/3/0/17`` or (point, level, run); all by default.
     seconds : mapping of str to float, optional
         By scenario, how long after the onset of its fault the recording stops [s]; to the end by default.
     signals : collection of str, optional
@@ -89,8 +92,10 @@ def replay_campaign(
     for planned in flyer.assembly.plan.scenarios:
         if scenarios is not None and planned.name not in scenarios:
             continue
-        chosen = (cases or {}).get(planned.name, np.arange(planned.first_case, planned.first_case + planned.n_runs))
-        batch = flyer.assembly.batch(np.asarray(chosen, dtype=np.int64))
+        numbers = planned.first_case + np.arange(planned.n_cases)
+        if planned.name in (cases or {}):
+            numbers = flyer.assembly.plan.numbers((cases or {})[planned.name], planned.name)
+        batch = flyer.assembly.batch(numbers)
         able = np.flatnonzero([reason == "" for reason in batch.infeasible_reason])
         if len(able):
             yield _record(flyer, planned, batch.take(able), (seconds or {}).get(planned.name), signals)
@@ -101,9 +106,9 @@ def _record(
 ) -> Recording:
     """Signals of cases of one scenario."""
     assembly, sample_s = flyer.assembly, flyer.assembly.loop.bus.sample_s
-    last = planned.n_samples - 1
-    if planned.k0 is not None and seconds is not None:
-        last = min(last, planned.k0 + round(seconds / sample_s))
+    k0, last = batch.faults.k0, max(planned.samples) - 1
+    if planned.faults and seconds is not None:
+        last = min(last, int(k0.max()) + round(seconds / sample_s))
     sources = {**dict.fromkeys(assembly.loop.bus.signals, "measured"), **dict.fromkeys(assembly.loop.truth, "truth")}
     # a row of a signal, q_deg_s_2, is asked for by its number or with all the others, q_deg_s
     asked = {name for full in signals or () for name in (full, _NUMBER.sub("", full))}
@@ -113,9 +118,9 @@ def _record(
     found = flyer.fly(_shortened(assembly, batch, last), kept).recorded
     return Recording(
         scenario=planned.name,
-        cases=tuple(batch.cases.tolist()),
+        cases=assembly.plan.names(batch.cases),
         time_s=np.round(np.arange(last + 1) * sample_s, 9),
-        onset_s=None if planned.k0 is None else round(planned.k0 * sample_s, 9),
+        onset_s=np.round(k0 * sample_s, 9) if planned.faults else None,
         signals=dict(
             _numbered(
                 {name: found[f"{source}:{name}"] for name, source in sources.items() if f"{source}:{name}" in found}

@@ -94,7 +94,7 @@ def run_campaign(
     backend : {"auto", "llvm", "numpy"}
         ``auto`` compiles where llvmlite is installed; no part of any result.
     progress, notice : callable
-        Told after every chunk; told what slows the run down.
+        Told at the beginning and after every chunk; told what slows the run down.
 
     Raises
     ------
@@ -108,6 +108,7 @@ def run_campaign(
     with locked(folder):
         claim(folder, files=campaign.files(), provenance=_provenance(campaign), fresh=fresh)
         left, told = _left(folder, plan.n_cases, progress)
+        told.tell()
         size = chunk or (COMPILED_CHUNK if flyer.compiled else CHUNK)
         chunks = [spans(part) for part in cut(plan, left, size=size, jobs=jobs)]
         work = (str(folder), campaign.sha256, backend)
@@ -153,6 +154,10 @@ class _Told:
     def __call__(self, shard: manifest.Shard) -> None:
         self.flown += sum(count for _, count in shard.cases)
         self.statuses.update(shard.statuses)
+        self.tell()
+
+    def tell(self) -> None:
+        """Say how far it is."""
         if self.progress is not None:
             done = self.before + self.flown
             self.progress(Progress(flown=self.flown, done=done, total=self.total, statuses=self.statuses))
@@ -184,6 +189,7 @@ def _provenance(campaign: Campaign) -> dict[str, object]:
         campaign=campaign.name,
         campaign_sha256=campaign.sha256,
         designs_sha256={design.name: design.sha256 for design in campaign.designs},
+        scenarios=[scenario.name for scenario in campaign.scenarios],
         seed=campaign.seed,
         files=campaign.files(),
     )

@@ -12,8 +12,9 @@ import pyarrow as pa
 from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
 from fddbench.errors import FddbenchError, ResultsError
-from fddbench.metrics.rows import Truth, event_columns, score_columns, statuses
-from fddbench.metrics.scoring import NEVER
+from fddbench.interfaces import NEVER
+from fddbench.metrics.rows import event_columns, score_columns, statuses
+from fddbench.metrics.scoring import Scoring
 from fddbench.results.manifest import Shard
 from fddbench.results.schema import EVENTS, rows_schema
 from fddbench.results.shards import write_table
@@ -27,7 +28,7 @@ __all__ = ["fly_and_write", "flyer_of", "frozen", "rows_and_events", "rows_of"]
 Columns = dict[str, pa.Array]
 Cases = npt.NDArray[np.int64]
 
-_SHARED = ("case", "scenario", "run", "detector", "status", "reason")
+_SHARED = ("scenario", "point", "level", "run", "detector", "status", "reason")
 _making = Lock()
 
 
@@ -90,61 +91,46 @@ def rows_and_events(flyer: Flyer, cases: Cases) -> tuple[pa.Table, pa.Table]:
     able = np.array([reason == "" for reason in batch.infeasible_reason], dtype=bool)
     flown, grounded = batch.take(np.flatnonzero(able)), batch.take(np.flatnonzero(~able))
     outcome = flyer.fly(flown) if able.any() else None
-    schema = rows_schema([parameter.name for parameter in assembly.plan.plant.parameters])
+    schema = rows_schema([parameter.name for parameter in assembly.plan.plant.parameters], assembly.plan.columns)
     parts: list[pa.Table] = []
     events = [EVENTS.empty_table()]
-    rank: list[Cases] = []
+    order: list[Cases] = []
     for number, detector in enumerate(assembly.detectors):
         for mine, result in ((flown, outcome), (grounded, None)):
             if len(mine.cases):
                 columns = _columns(assembly, mine, result, detector)
                 parts.append(pa.Table.from_pydict(columns, schema=schema))
                 events += _events(assembly, mine, result, detector, columns)
-                rank.append(np.full(len(mine.cases), number))
+                order.append(np.stack([np.full(len(mine.cases), number), mine.cases]))
     rows = pa.concat_tables(parts)
-    in_order = np.lexsort((np.concatenate(rank), rows["case"].to_numpy()))
+    in_order = np.lexsort(np.concatenate(order, axis=1))
     return rows.take(pa.array(in_order)).combine_chunks(), pa.concat_tables(events).combine_chunks()
 
 
 def rows_of(assembly: Assembly, batch: Batch, outcome: Outcome | None, detector: str) -> pa.Table:
     """Rows of one detector on a batch."""
-    schema = rows_schema([parameter.name for parameter in assembly.plan.plant.parameters])
+    schema = rows_schema([parameter.name for parameter in assembly.plan.plant.parameters], assembly.plan.columns)
     return pa.Table.from_pydict(_columns(assembly, batch, outcome, detector), schema=schema)
 
 
 def _columns(assembly: Assembly, batch: Batch, outcome: Outcome | None, detector: str) -> Columns:
     """Rows of one detector by columns; without an outcome the flights are infeasible and nobody is scored."""
-    n_cases = len(batch.cases)
-    score = assembly.nothing_scored(batch) if outcome is None else outcome.scores[detector]
+    n_cases, scoring = len(batch.cases), _scoring(assembly, outcome, detector)
+    score = assembly.nothing_scored(batch, scoring) if outcome is None else outcome.scores[detector]
     departed = np.full(n_cases, NEVER) if outcome is None else outcome.departed
     errors = (outcome.errors.get(detector) if outcome else None) or [""] * n_cases
-    status, reason = statuses(
-        assembly.scoring,
-        score,
-        batch.score_constants,
-        departed=departed,
-        infeasible=batch.infeasible_reason,
-        errors=errors,
-    )
+    status, reason = statuses(scoring, score, infeasible=batch.infeasible_reason, errors=errors)
     scores = score_columns(
-        assembly.scoring,
-        score,
-        batch.score_constants,
-        truth=_truth(assembly, batch),
-        sites=assembly.loop.bus.names,
-        status=status,
-        departed=departed,
-        sample_s=assembly.loop.bus.sample_s,
+        scoring, score, batch.score_constants, limit_s=batch.faults.limit_s, status=status, departed=departed
     )
     said = {"status": pa.array(status, pa.string()), "reason": pa.array(reason, pa.string())}
     return _who(assembly, batch, detector) | said | scores
 
 
-def _truth(assembly: Assembly, batch: Batch) -> Truth:
-    planned = assembly.plan.scenarios
-    return Truth(
-        faulty_sites=[p.faulty_sites for p in planned], limit_s=[p.limit_s for p in planned], scenario=batch.scenario
-    )
+def _scoring(assembly: Assembly, outcome: Outcome | None, detector: str) -> Scoring:
+    """How a detector was scored; somebody else's declarations have a scoring of their own."""
+    own = None if outcome is None else outcome.scoring.get(detector)
+    return own or assembly.scoring_of[detector]
 
 
 def _who(assembly: Assembly, batch: Batch, detector: str) -> Columns:
@@ -157,7 +143,9 @@ def _who(assembly: Assembly, batch: Batch, detector: str) -> Columns:
         "detector": [detector] * len(planned),
     }
     columns = {name: pa.array(known, pa.string()).take(where) for name, known in texts.items()}
-    columns |= {"case": pa.array(batch.cases), "run": pa.array(batch.run)}
+    columns |= {name: pa.array(getattr(batch, name)) for name in ("point", "level", "run")}
+    flown = batch.faults.numbers.items()
+    columns |= {name: pa.array(values, mask=np.isnan(values)) for name, values in flown}
     return columns | {f"p_{name}": pa.array(values) for name, values in batch.parameters.items()}
 
 
@@ -170,22 +158,35 @@ def _events(
         planned = assembly.plan.scenarios[position]
         if not has_events(planned):
             continue
-        cases = np.flatnonzero(batch.scenario == position)
-        shared = {name: columns[name].take(pa.array(cases)) for name in _SHARED}
-        ok, end = np.zeros(len(cases), dtype=bool), np.full(len(cases), planned.n_samples - 1.0)
-        score = assembly.nothing_scored(batch)
+        mine = batch.scenario == position
+        shared = {name: columns[name].filter(pa.array(mine)) for name in _SHARED}
+        scoring, departed = assembly.scoring_of[detector], np.full(len(mine), NEVER)
+        score = assembly.nothing_scored(batch, scoring)
         if outcome is not None:
-            score, end = outcome.scores[detector], np.minimum(end, outcome.departed[cases] - 1.0)
-            ok = np.array([status == "ok" for status in shared["status"].to_pylist()], dtype=bool)
+            score, departed = outcome.scores[detector], outcome.departed
+        ok = np.array([status == "ok" for status in columns["status"].to_pylist()], dtype=bool)
         for number, fault in enumerate(planned.faults):
-            times = event_columns(
-                assembly.scoring, score, batch.score_constants, cases=cases, event=number,
-                limit_s=planned.event_limits_s[number], end=end, sample_s=assembly.loop.bus.sample_s, valid=ok,
-            )  # fmt: skip
+            limit_s = batch.faults.event_limits_s[number]
+            scores = event_columns(
+                scoring, score, batch.score_constants, event=number, limit_s=limit_s, departed=departed, valid=ok
+            )
             what: dict[str, Any] = {"event": number + 1, "fault": fault.kind, "sites": "+".join(fault.sites)}
-            what |= {"onset_s": fault.onset_s, "end_s": fault.end_s}
             alike = {
-                name: pa.repeat(pa.scalar(value, EVENTS.field(name).type), len(cases)) for name, value in what.items()
+                name: pa.repeat(pa.scalar(value, EVENTS.field(name).type), int(mine.sum()))
+                for name, value in what.items()
             }
-            found.append(pa.Table.from_pydict(shared | alike | times, schema=EVENTS))
+            own = {name: values.filter(pa.array(mine)) for name, values in scores.items()}
+            found.append(
+                pa.Table.from_pydict(shared | alike | _event_times(assembly, batch, number, mine) | own, schema=EVENTS)
+            )
     return found
+
+
+def _event_times(assembly: Assembly, batch: Batch, line: int, mine: npt.NDArray[np.bool_]) -> Columns:
+    """When a fault began and ended in some flights."""
+    sample_s, last = assembly.loop.bus.sample_s, batch.faults.last[line, mine]
+    end_s = np.round((last + 1.0) * sample_s, 9)
+    return {
+        "onset_s": pa.array(np.round(batch.faults.first[line, mine] * sample_s, 9)),
+        "end_s": pa.array(end_s, mask=last == NEVER),
+    }

@@ -34,6 +34,7 @@ class JetEngine(SinglePlant):
     manoeuvres: Mapping[str, float] = DURATIONS_S
     shown: tuple[str, ...] = ("f_true_1", "f_true_2", "f_true_3")
     limits_from = "our choice: 5 s for each fault"
+    iterations = "robust_hinf_table1"
     matrices: Mapping[str, Floats] = MATRICES
 
     def loop(self, options: Options) -> JetEngineLoop:

@@ -114,7 +114,8 @@ class JetEngineLoop:
         engine, y = plant.engine(c.engine, self.sample_s).step(x.engine, np.concatenate([f, d, u]))
         after = EngineState(engine=engine, disturbance=d, faults=faults)
         truth = dict(zip(self.truth, [*f, *d], strict=True))
-        return after, Sample(measured=SimpleNamespace(y=y, u=u), truth=truth, departed=np.zeros_like(y[0]) > 1.0)
+        departed = np.zeros_like(y[0]) > 1.0
+        return after, Sample(measured=SimpleNamespace(y=y, u=u), truth=truth, departed=departed, added=f)
 
 
 def _of_input(rows: Rows, i: int) -> Rows:

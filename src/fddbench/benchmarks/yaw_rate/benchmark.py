@@ -47,6 +47,8 @@ class YawRate:
     }
     shown: tuple[str, ...] = ("r_deg_s", "r_voted_deg_s")
     limits_from = "inferred from the printed numbers"
+    envelope_axes = (("v_cas_kt", "altitude_ft"), ("x_cg_ratio", "mass_kg"))
+    published = "table8"
 
     def plant(self, chosen: Mapping[str, Any]) -> YawRatePlant:
         """The chosen plant."""

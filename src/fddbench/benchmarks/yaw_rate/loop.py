@@ -182,7 +182,19 @@ class LateralLoop:
             rate_faults=rate_faults,
             surface_faults=surface_faults,
         )
-        return after, Sample(measured=measured, truth=self._truth(motion, gust_m_s), departed=motion.departed)
+        seen = Sample(
+            measured=measured,
+            truth=self._truth(motion, gust_m_s),
+            departed=motion.departed,
+            added=self._added(r_deg_s - readings.r_deg_s, surface_deg - x.actuators.position_deg),
+            voted={"r_voted_deg_s": voted_deg_s - motion.r_deg_s},
+        )
+        return after, seen
+
+    def _added(self, rates_deg_s: Rows, surfaces_deg: Rows) -> Rows:
+        """What faults add on every site, (n_sites, n_cases), of what they add to the sensors and to all surfaces."""
+        by_signal = {"r_deg_s": rates_deg_s, "surface_deg": surfaces_deg}
+        return np.stack([by_signal[site.signal][site.row] for site in self.bus.sites])
 
     def _surfaces(self, x: LoopState, c: LoopConstants, n: LoopDraws, sample: Row) -> tuple[SignalFaultsState, Rows]:
         """Positions of the surfaces with their faults [deg]; those without a site pass."""

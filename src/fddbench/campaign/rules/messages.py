@@ -10,6 +10,7 @@ from fddbench.campaign.reading.document import Address, Document
 from fddbench.campaign.rules.model import extra_hint
 from fddbench.campaign.rules.wording import Finding, say
 from fddbench.errors import Mistake, did_you_mean
+from fddbench.faults.varied import Number, Varied
 
 __all__ = ["allowed_keys", "mistakes_of"]
 
@@ -21,7 +22,7 @@ def allowed_keys(model: type[BaseModel], address: Address) -> tuple[str, ...]:
         if found is None or isinstance(part, int):
             continue
         entry = _keyed(found).get(part)
-        found = _model_in(entry.annotation if entry else extra_hint(found))
+        found = _model_of(entry) if entry else _model_in(extra_hint(found))
     return tuple(_keyed(found)) if found else ()
 
 
@@ -30,7 +31,16 @@ def _keyed(model: type[BaseModel]) -> dict[str, FieldInfo]:
     return {field.alias or name: field for name, field in model.model_fields.items()}
 
 
+def _model_of(entry: FieldInfo) -> type[BaseModel] | None:
+    """Model of the block that a field may hold; numbers of a fault may be drawn or swept."""
+    if any(isinstance(part, Number) for part in entry.metadata):
+        return Varied
+    return _model_in(entry.annotation)
+
+
 def _model_in(annotation: Any) -> type[BaseModel] | None:
+    if isinstance(annotation, Number):
+        return Varied
     if isinstance(annotation, type) and not typing.get_args(annotation) and issubclass(annotation, BaseModel):
         return annotation
     return next(filter(None, map(_model_in, typing.get_args(annotation))), None)

@@ -23,6 +23,7 @@ def ranges(document: Document, written: CampaignFile, plant: Plant) -> Iterator[
         for name, values in lists.items():
             for number, value in enumerate(values):
                 yield from _outside(document, ("dispersions", block, name, number), value, known[name])
+    yield from _twice(document, written)
     lengths = {name: len(values) for name, values in dispersions.sequence.items()}
     if len(set(lengths.values())) > 1:
         counts = ", ".join(f"{name} has {n}" for name, n in lengths.items())
@@ -31,6 +32,20 @@ def ranges(document: Document, written: CampaignFile, plant: Plant) -> Iterator[
     if dispersions.monte_carlo:
         for name, distribution in dispersions.monte_carlo.parameters.items():
             yield from _distribution(document, ("dispersions", "monte_carlo", name), distribution, known[name])
+
+
+def _twice(document: Document, written: CampaignFile) -> Iterator[Mistake]:
+    """Points that are there twice: values of a grid, and steps of a sequence."""
+    for name, values in written.dispersions.grid.items():
+        for number, value in enumerate(values):
+            if value in values[:number]:
+                message = f"{name} lists {value:g} twice; every value of a grid is flown once, list it once"
+                yield document.mistake(("dispersions", "grid", name, number), message)
+    steps = list(zip(*written.dispersions.sequence.values(), strict=False))
+    for number, step in enumerate(steps):
+        if step in steps[:number]:
+            message = f"steps {steps.index(step) + 1} and {number + 1} of the sequence are the same point; list it once"
+            yield document.mistake(("dispersions", "sequence"), message, key=True)
 
 
 def _outside(document: Document, address: Address, value: float, parameter: Parameter) -> Iterator[Mistake]:

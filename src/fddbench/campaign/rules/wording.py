@@ -103,7 +103,7 @@ def _length(finding: Finding) -> str:
     ctx = finding.context
     least, most = ctx.get("min_length"), ctx.get("max_length")
     need = f"at least {least} of them" if most is None else f"at most {most}"
-    if finding.address[-1:] == ("uniform",):
+    if finding.address[-1:] in (("uniform",), ("log_uniform",)):
         need = "exactly [low, high]"
     return f"needs {need}{unit_of(finding.address)}, got {shown(finding.received)}"
 

@@ -61,6 +61,7 @@ class SlidingMode:
 
     about = "LPV sliding-mode observer with flag, adaptive threshold, isolation and energy monitor"
     recorded = ("reconstruction_deg_s", "threshold_deg_s", "deviation_deg_s", "flag_threshold_deg_s")
+    estimates = "r_voted_deg_s"
     Gains = SlidingModeGains
     constants: Layout[Any] = NOTHING
     draws: Draws[Any] = NO_DRAWS
@@ -79,7 +80,8 @@ class SlidingMode:
         )  # fmt: skip
         self.input_share = float(1.0 - exp(np.array(-T / g.input_lag_s)))
         self.output_share = float(1.0 - exp(np.array(-T / g.output_lag_s)))
-        self.confirm_one, self.confirm_two = samples(g.confirm_one_s, T), samples(g.confirm_two_s, T)
+        self.confirm_one = samples("confirm_one_s", g.confirm_one_s, T)
+        self.confirm_two = samples("confirm_two_s", g.confirm_two_s, T)
         self.states = Layout(
             SlidingModeState(
                 lagged=17, observer=self.observer.states.shape, reconstruction_deg_s=ROW,
@@ -142,7 +144,7 @@ class SlidingMode:
             "deviation_deg_s": apart,
             "flag_threshold_deg_s": np.full_like(apart, self.gains.flag_threshold_deg_s),
         }
-        return after, Verdict(declared, ratio, signals=shown)
+        return after, Verdict(declared, ratio, signals=shown, estimate=reconstruction)
 
     def _reconstruct(self, x: SlidingModeState, m: SimpleNamespace) -> tuple[Rows, ObserverState, Row]:
         """Lagged inputs, observer state and filtered reconstruction [deg/s].
