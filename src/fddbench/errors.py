@@ -14,7 +14,10 @@ __all__ = [
     "DesignError",
     "FddbenchError",
     "Mistake",
+    "OtherProgramWarning",
+    "PartialResultsWarning",
     "ResultsError",
+    "ResultsWarning",
     "UnknownNameError",
     "did_you_mean",
     "place_of",
@@ -131,3 +134,15 @@ class ResultsError(FddbenchError):
     def __str__(self) -> str:
         """The message as written."""
         return self.message
+
+
+class ResultsWarning(UserWarning):
+    """Something about a folder of results that a reader must know; the commands print it."""
+
+
+class PartialResultsWarning(ResultsWarning):
+    """A folder holds some of the flights of its campaign."""
+
+
+class OtherProgramWarning(ResultsWarning):
+    """What reads or flies again is another program than the one that wrote the folder."""

@@ -70,7 +70,7 @@ def test_a_damaged_folder_is_mended_to_the_same_rows(everything, tmp_path, damag
 
 
 def _hold(folder, ready):
-    from fddbench.results.folder import locked
+    from fddbench.results.lock import locked
 
     with locked(folder):
         ready.set()

@@ -8,14 +8,16 @@ import numpy as np
 import pandas as pd
 import yaml
 
+from fddbench.campaign.meaning import Campaign
 from fddbench.reporting.page import ReportData
 from fddbench.reporting.published import iterations_for, published_for
 from fddbench.results.folder import provenance_of
-from fddbench.results.table import load, load_events
+from fddbench.results.table import read_events, read_rows
+from fddbench.results.whole import holdings
 from fddbench.runner.assembling import assemble
+from fddbench.runner.fingerprint import frozen, other_program
 from fddbench.runner.load import detector_load, in_words
-from fddbench.runner.replay import replay, sampled_cases
-from fddbench.runner.work import frozen
+from fddbench.runner.replay import replay_campaign, sampled_cases
 
 __all__ = ["report_data"]
 
@@ -31,8 +33,8 @@ def report_data(folder: Path) -> ReportData:
     FddbenchError
         No folder of results, or one that is damaged.
     """
-    provenance, rows = provenance_of(folder), load(folder)
-    campaign = frozen(folder, provenance["campaign_sha256"])
+    provenance, rows, found = provenance_of(folder), read_rows(folder), holdings(folder)
+    campaign = frozen(folder)
     content: dict[str, Any] = {name: getattr(campaign, name) for name in _SETTINGS} | dict(campaign.choices)
     content |= yaml.safe_load(campaign.text)
     assembly = assemble(campaign)
@@ -44,8 +46,8 @@ def report_data(folder: Path) -> ReportData:
     return ReportData(
         campaign=content,
         rows=rows,
-        events=load_events(folder),
-        provenance=_flat(provenance),
+        events=read_events(folder),
+        provenance=_flat(provenance) | _replayed(folder, campaign),
         designs=[
             {
                 "name": d.name,
@@ -58,11 +60,18 @@ def report_data(folder: Path) -> ReportData:
             }
             for d in campaign.designs
         ],
-        recordings=list(replay(folder, chosen, seconds=_seconds(rows), signals=campaign.bench.shown)),
+        recordings=list(replay_campaign(campaign, chosen, seconds=_seconds(rows), signals=campaign.bench.shown)),
         published=published_for(content),
         iterations=iterations_for(content),
         limits_from=campaign.bench.limits_from,
+        partial=found.sentence if found.partial else "",
     )
+
+
+def _replayed(folder: Path, campaign: Campaign) -> dict[str, str]:
+    """Line that says by which other program the pictures were flown."""
+    other = other_program(folder, campaign)
+    return {"signals flown again by another program": other} if other else {}
 
 
 def _seconds(rows: pd.DataFrame) -> dict[str, float]:

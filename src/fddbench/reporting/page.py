@@ -42,6 +42,8 @@ class ReportData:
         Printed course of an optimisation, and ours.
     limits_from : str
         Where the benchmark's detection time limits come from.
+    partial : str
+        How many flights of how many the folder holds, "" when all.
     """
 
     campaign: Mapping[str, Any]
@@ -53,6 +55,7 @@ class ReportData:
     published: Published | None = None
     iterations: Iterations | None = None
     limits_from: str = ""
+    partial: str = ""
 
 
 def write_page(report: ReportData, output: Path) -> None:
@@ -85,6 +88,7 @@ def _content(report: ReportData) -> dict[str, Any]:
         "campaign": report.campaign,
         "settings": _settings(report.campaign),
         "campaign_text": _as_yaml(report.campaign),
+        "partial": report.partial,
         "flown": headlines.flown_sentence(rows),
         "findings": headlines.findings(summary),
         "results": tables.result_lines(summary),

@@ -5,6 +5,7 @@ import os
 import signal
 import sys
 from collections.abc import Generator, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 from fddbench.errors import FddbenchError
@@ -16,7 +17,7 @@ __all__ = ["fly_all"]
 
 _ATTEMPTS = 3
 Work = tuple[str, str, str]
-"""Folder of results, the campaign's sha256 and the back end."""
+"""Folder of results, the fingerprint of what flies and the back end."""
 
 
 def fly_all(work: Work, chunks: Sequence[Spans], *, jobs: int, threads: bool) -> Generator[Shard, None, None]:
@@ -54,7 +55,21 @@ def _once(work: Work, chunks: Sequence[Spans], *, jobs: int, threads: bool) -> I
 
     options = {"backend": "threading"} if threads else {"backend": "loky", "initializer": _begin_worker}
     pool = Parallel(n_jobs=jobs, return_as="generator_unordered", **options)
-    yield from pool(delayed(fly_and_write)(*work, chunk) for chunk in chunks)
+    with _safe_path():
+        yield from pool(delayed(fly_and_write)(*work, chunk) for chunk in chunks)
+
+
+@contextmanager
+def _safe_path() -> Iterator[None]:
+    """Workers begin without the folder one works in on their path: a plug-in there may be called random.py."""
+    before = os.environ.get("PYTHONSAFEPATH")
+    os.environ["PYTHONSAFEPATH"] = "1"
+    try:
+        yield
+    finally:
+        os.environ.pop("PYTHONSAFEPATH")
+        if before is not None:
+            os.environ["PYTHONSAFEPATH"] = before
 
 
 def _begin_worker() -> None:
