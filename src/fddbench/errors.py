@@ -4,7 +4,9 @@ Every message names the place, what was received, what is allowed and what to do
 ``__init__`` of their own, because only those survive the way back from a worker process.
 """
 
+import sys
 import traceback
+import warnings
 from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -22,6 +24,7 @@ __all__ = [
     "did_you_mean",
     "place_of",
     "reason_of",
+    "warn",
 ]
 
 _LONGEST = 200
@@ -56,6 +59,14 @@ def place_of(error: BaseException) -> str:
     """Innermost line of foreign code that an exception passed, in brackets; "" where it passed none."""
     frames = [f for f in traceback.extract_tb(error.__traceback__) if "/fddbench/" not in f.filename.replace("\\", "/")]
     return f" ({frames[-1].filename}:{frames[-1].lineno})" if frames else ""
+
+
+def warn(message: str, category: type[Warning]) -> None:
+    """Warn at the line outside this package that asked."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("fddbench."):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(message, category, stacklevel=level)
 
 
 class FddbenchError(Exception):

@@ -43,8 +43,8 @@ class _Loaded:
     files: Mapping[str, bytes]
 
 
-_loaded: dict[str, list[_Loaded]] = {}
-"""By the sha256 of the file: each set of siblings it has been loaded with."""
+_loaded: dict[tuple[str, str], list[_Loaded]] = {}
+"""By the name and sha256 of the file: each set of siblings it has been loaded with."""
 _lock = RLock()
 
 
@@ -82,17 +82,18 @@ def _defined_in(value: Any, module: ModuleType) -> bool:
 def _load(path: Path) -> _Loaded:
     text = path.read_bytes()
     digest = sha256(text).hexdigest()
-    for known in _loaded.get(digest, ()):  # a second reading is the same class, if its siblings are the same
+    before = _loaded.setdefault((path.name, digest), [])
+    for known in before:  # a second reading is the same class, if its siblings are the same
         if all(_read(path.parent, name) == content for name, content in known.files.items() if name != path.name):
             return known
     siblings = _Siblings(path.parent)
     with siblings, noticed_reads(path.parent) as read:
         # named by content, so that two plug-ins of one file name do not meet
-        module = _executed(path, f"fddbench_plugin_{path.stem}_{digest[:16]}_{len(_loaded.get(digest, ()))}")
+        module = _executed(path, f"fddbench_plugin_{path.stem}_{digest[:16]}_{len(before)}")
     names = [*siblings.found, *read, *_declared(module, path)]
     files = {path.name: text} | {name: _read(path.parent, name) or b"" for name in dict.fromkeys(names)}
     loaded = _Loaded(module, files)
-    _loaded.setdefault(digest, []).append(loaded)
+    before.append(loaded)
     return loaded
 
 

@@ -76,11 +76,10 @@ def differences(there: Fingerprint, here: Fingerprint) -> tuple[str, ...]:
     >>> differences(a, Fingerprint(**{**a.parts(), "libraries": {"numpy": "2.4.1"}, "source": {"fddbench/voting": "a"}}))
     ('numpy: none there, 2.4.1 here', 'other source code of fddbench/voting')
     """
-    return (
-        *(["the campaign says something else"] if there.campaign_sha256 != here.campaign_sha256 else []),
-        *_files(there.files, here.files),
-        *_program(there, here),
-    )
+    told = [*_files(there.files, here.files)]
+    if there.campaign_sha256 != here.campaign_sha256 and not told:  # the files are a part of the campaign
+        told = ["the campaign says something else"]
+    return (*told, *_program(there, here))
 
 
 def _program(there: Fingerprint, here: Fingerprint) -> Iterator[str]:

@@ -1,5 +1,6 @@
 """One run per folder: a lock of the operating system, which dies with the process."""
 
+import errno
 import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -9,6 +10,9 @@ from fddbench.errors import ResultsError
 from fddbench.results.shards import is_durable, write_bytes
 
 __all__ = ["locked"]
+
+_NO_LOCKS = {errno.ENOLCK, errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP}
+"""What file systems answer that have no locks."""
 
 
 @contextmanager
@@ -42,7 +46,9 @@ def locked(folder: Path, *, notice: Callable[[str], None] | None = None) -> Iter
         raise ResultsError(
             f"{folder} is being written by process {pid}; wait for it, or name another folder with --out"
         ) from error
-    except NotImplementedError:
+    except (NotImplementedError, OSError) as error:
+        if isinstance(error, OSError) and error.errno not in _NO_LOCKS:
+            raise
         say(f"the file system of {folder} has no locks: start no second run on this folder")
     try:
         write_bytes(folder / ".pid", str(os.getpid()).encode())

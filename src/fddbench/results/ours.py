@@ -50,13 +50,14 @@ def refuse_foreign(folder: Path, carried: Collection[str] | None, *, fresh: bool
         )
     recognised = carried is None and _is_listed(folder)
     foreign = [name for name in names if not _is_ours(name, carried or (), anything_frozen=recognised)]
+    unknown = carried is None and not _is_blank(folder, names) and not (fresh and recognised)
+    if unknown and (not foreign or any(map(_SHARD.fullmatch, names))):
+        _refuse_unknown(folder, names, recognised=recognised)
     if foreign:
         more = ", ..." if len(foreign) > 3 else ""
         raise ResultsError(
             f"{folder} is no folder of results: it holds {', '.join(foreign[:3])}{more}; name another with --out"
         )
-    if carried is None and not _is_blank(folder, names) and not (fresh and recognised):
-        _refuse_unknown(folder, names, recognised=recognised)
 
 
 def _refuse_unknown(folder: Path, names: Collection[str], *, recognised: bool) -> None:

@@ -97,7 +97,7 @@ def _require(path: Path, found: pa.Schema, expected: pa.Schema, fingerprint: str
             "wrote it, or fly the campaign anew with --fresh"
         )
     for field in expected:
-        here = found.field(field.name).type if field.name in found.names else "no such column"
+        here = found.field(field.name).type if field.name in found.names else "missing"
         if here != field.type:
             raise ResultsError(
                 f"{path} has a foreign schema: column {field.name} is {here}, needs {field.type}; fly the campaign anew "

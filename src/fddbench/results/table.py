@@ -1,6 +1,5 @@
 """Reads the tables of a folder of results, by its manifest."""
 
-import warnings
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -8,7 +7,7 @@ import pandas as pd
 import pyarrow as pa
 import pyarrow.compute as pc
 
-from fddbench.errors import PartialResultsWarning, ResultsError
+from fddbench.errors import PartialResultsWarning, ResultsError, warn
 from fddbench.results.folder import provenance_of
 from fddbench.results.manifest import shards
 from fddbench.results.schema import EVENTS, rows_schema
@@ -84,10 +83,9 @@ def read_events(folder: Path) -> pd.DataFrame:
 def _warn(folder: Path) -> None:
     found = holdings(folder)
     if found.partial:
-        warnings.warn(
+        warn(
             f"{folder} is partial, it holds {found.sentence}; run the campaign again to fly the rest",
             PartialResultsWarning,
-            stacklevel=3,
         )
 
 

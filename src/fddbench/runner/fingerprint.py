@@ -1,6 +1,5 @@
 """The fingerprint of a campaign and of the program that flies it here, and the campaign that is frozen in a folder."""
 
-import warnings
 from collections.abc import Iterator
 from hashlib import sha256
 from pathlib import Path
@@ -10,7 +9,7 @@ from fddbench import sources
 from fddbench.blocks import llvm
 from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
-from fddbench.errors import FddbenchError, OtherProgramWarning, ResultsError
+from fddbench.errors import FddbenchError, OtherProgramWarning, ResultsError, warn
 from fddbench.results.fingerprint import Fingerprint, differences
 from fddbench.results.folder import changed_files, provenance_of
 from fddbench.results.provenance import version_of
@@ -60,7 +59,7 @@ def frozen(folder: Path) -> Campaign:
     campaign = _read(folder)
     other = other_program(folder, campaign)
     if other:
-        warnings.warn(f"{folder} was flown by another program ({other})", OtherProgramWarning, stacklevel=2)
+        warn(f"{folder} was flown by another program ({other}); flights may differ from its rows", OtherProgramWarning)
     return campaign
 
 
