@@ -56,9 +56,8 @@ def foreign(members: Iterable[Any], files: Mapping[str, bytes]) -> Foreign:
         Python and other files that travel with the campaign, by name; they are hashed elsewhere, what they import is not.
     """
     anchors = frozenset(anchor for member in members for anchor in _anchors(member))
-    beside = frozenset(Path(name).stem for name in files if name.endswith(".py"))
     imports = {name for file, text in files.items() if file.endswith(".py") for name in _imports(text)}
-    return _behind(anchors, frozenset(imports), beside)
+    return _behind(anchors, frozenset(imports))
 
 
 def _anchors(member: Any) -> Iterator[type]:
@@ -70,11 +69,11 @@ def _anchors(member: Any) -> Iterator[type]:
 
 
 @cache
-def _behind(anchors: frozenset[type], imports: frozenset[str], beside: frozenset[str]) -> Foreign:
+def _behind(anchors: frozenset[type], imports: frozenset[str]) -> Foreign:
     """Follow imports from the classes and files to everything that is not part of Python."""
     registered = {_unit(anchor.__module__) for anchor in anchors}
     found, left = Foreign(), [*registered, *map(_unit, imports)]
-    seen = {"", *_DECIDE_NO_BIT, *beside}
+    seen = {"", *_DECIDE_NO_BIT}
     while left:
         unit = left.pop()
         top = unit.partition(".")[0]

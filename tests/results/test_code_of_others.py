@@ -12,6 +12,7 @@ from tests.results.conftest import TEXT, fly
 from fddbench import kinds, load, report, sources
 from fddbench.campaign.load import read_campaign
 from fddbench.errors import ResultsError
+from fddbench.results.ours import refuse_names
 from fddbench.runner.fingerprint import fingerprint_of
 
 DETECTOR = """\
@@ -96,6 +97,23 @@ def test_a_module_beside_a_plugin_travels_and_belongs(beside, tmp_path):
         fly(beside(helper_py="WEIGHT = 2.0"), out)
     shutil.rmtree(beside.folder)
     assert report(out).is_file()
+
+
+def test_a_module_beside_a_plugin_travels_from_a_notebook_too(beside, monkeypatch):
+    """It has the folder that it works in on its path."""
+    monkeypatch.syspath_prepend(beside.folder)
+    campaign = beside(net_py=DETECTOR.format(more="from helper import WEIGHT"), helper_py="WEIGHT = 1.0")
+    assert "detectors/helper.py" in campaign.files()
+
+
+def test_what_a_plugin_reads_has_no_name_of_the_results(beside, tmp_path):
+    text = READS.replace("Path(__file__).parent / 'weights.npy'", "Path(__file__).parent / 'our weights.npy'")
+    weights(beside.folder / "our weights.npy", 1.0)
+    campaign = beside(net_py=text)
+    for _ in range(2):
+        fly(campaign, tmp_path / "out")
+    with pytest.raises(ResultsError, match="stands on the file rows/x.parquet, which has a name of the results"):
+        refuse_names(["campaign.yaml", "detectors/x.py", "rows/x.parquet"])
 
 
 def test_two_designs_on_equal_files_of_two_names(beside, tmp_path):

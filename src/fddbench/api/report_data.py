@@ -85,11 +85,11 @@ def _seconds(rows: pd.DataFrame) -> dict[str, float]:
 
 
 def _flat(provenance: Mapping[str, object]) -> dict[str, str]:
-    """Provenance as text, nested entries by dotted names."""
+    """Provenance as text, nested entries by dotted names; of the source its fingerprint is enough."""
     flat: dict[str, str] = {}
     for name, value in provenance.items():
-        if isinstance(value, Mapping):
+        if isinstance(value, Mapping) and name != "source":
             flat |= {f"{name}.{inner}": str(entry) for inner, entry in value.items()}
-        else:
+        elif name != "source":
             flat[name] = str(value)
     return flat

@@ -40,6 +40,7 @@ def claim(folder: Path, *, files: Mapping[str, bytes], provenance: Mapping[str, 
         The folder holds results of another campaign or program (the difference is told) or files that are not fddbench's.
     """
     refuse_foreign(folder, fresh=fresh)
+    ours.refuse_names(files)
     if (folder / _PROVENANCE).is_file() and not fresh:
         there = _read(folder)
         _require_same(folder, there, provenance, files)

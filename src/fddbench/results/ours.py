@@ -4,20 +4,18 @@ import os
 import re
 import shutil
 from collections.abc import Collection, Iterator
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 from fddbench.errors import ResultsError
 from fddbench.results.manifest import survey
 
-__all__ = ["clear", "refuse_foreign"]
+__all__ = ["clear", "refuse_foreign", "refuse_names"]
 
-_FIXED = ("manifest.jsonl", "campaign.yaml", "report.html", "provenance.json", ".lock", ".pid")
-_FOLDERS = ("rows", "events", "detectors")
+_OWN = ("manifest.jsonl", "report.html", "provenance.json", ".lock", ".pid")
+_FIXED = ("campaign.yaml", *_OWN)
 _SHARD = re.compile(r"(rows|events)/[0-9-]+\.parquet")
 _LEFT = re.compile(r"(.*/)?(\.[^/]+\.[0-9]+\.tmp|__pycache__/[^/]+\.pyc)")
 """What a crash in the middle of a write leaves behind, and what Python leaves beside the plug-ins."""
-_CARRIED = re.compile(r"[A-Za-z_][A-Za-z0-9_-]*([./][A-Za-z0-9_-]+)*")
-"""Name of a frozen file; never a way out of the folder."""
 
 
 def refuse_foreign(folder: Path, carried: Collection[str] | None, *, fresh: bool) -> None:
@@ -79,9 +77,22 @@ def _refuse_unknown(folder: Path, names: Collection[str], *, recognised: bool) -
     )
 
 
+def refuse_names(names: Collection[str]) -> None:
+    """Refuse files that plug-ins stand on and that have the names of ours.
+
+    Raises
+    ------
+    ResultsError
+        With the first of them.
+    """
+    for name in names:
+        if not _may_be_frozen(name):
+            raise ResultsError(f"a plug-in stands on the file {name}, which has a name of the results; rename it")
+
+
 def clear(folder: Path, carried: Collection[str]) -> None:
     """Remove what fddbench writes, the provenance last: a folder that is half cleared is still known as ours."""
-    frozen = [name for name in carried if _CARRIED.fullmatch(name)]
+    frozen = [name for name in carried if _may_be_frozen(name)]
     for name in ("manifest.jsonl", "rows", "events", "detectors", *frozen, "campaign.yaml", "report.html"):
         path = folder / name
         if path.is_dir() and not path.is_symlink():
@@ -102,11 +113,13 @@ def _walk(folder: Path) -> Iterator[tuple[str, bool]]:
 
 def _is_ours(name: str, carried: Collection[str], *, anything_frozen: bool) -> bool:
     known = name in _FIXED or bool(_SHARD.fullmatch(name)) or bool(_LEFT.fullmatch(name))
-    return (
-        known
-        or (name in carried and bool(_CARRIED.fullmatch(name)))
-        or (anything_frozen and name.startswith("detectors/"))
-    )
+    return known or (name in carried and _may_be_frozen(name)) or (anything_frozen and name.startswith("detectors/"))
+
+
+def _may_be_frozen(name: str) -> bool:
+    """Whether a file of this name may be kept beside results: it stays in the folder, and is none of our own."""
+    path = PurePosixPath(name)
+    return not path.is_absolute() and ".." not in path.parts and path.parts[0] not in (*_OWN, "rows", "events")
 
 
 def _is_listed(folder: Path) -> bool:

@@ -9,13 +9,14 @@ from fddbench import sources
 from fddbench.blocks import llvm
 from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
+from fddbench.campaign.plan import Plan
 from fddbench.errors import FddbenchError, OtherProgramWarning, ResultsError, warn
 from fddbench.results.fingerprint import Fingerprint, differences
 from fddbench.results.folder import changed_files, provenance_of
-from fddbench.results.provenance import version_of
+from fddbench.results.provenance import collect, version_of
 from fddbench.results.schema import SCHEMA_VERSION
 
-__all__ = ["fingerprint_of", "frozen", "frozen_to_fly", "other_program"]
+__all__ = ["fingerprint_of", "frozen", "frozen_to_fly", "other_program", "provenance_for"]
 
 _REMEDY = "Run the campaign again on this folder: it puts the files back."
 
@@ -41,6 +42,19 @@ def _members(campaign: Campaign) -> Iterator[Any]:
     yield from (campaign.bench, campaign.plant, *campaign.chosen.values())
     yield from (fault for scenario in campaign.scenarios for fault in scenario.faults)
     yield from (design.kind.member for design in campaign.designs)
+
+
+def provenance_for(plan: Plan, fingerprint: Fingerprint) -> dict[str, object]:
+    """Provenance of a run of this case table that begins now."""
+    campaign = plan.campaign
+    return collect(
+        fingerprint,
+        campaign=campaign.name,
+        designs_sha256={design.name: design.sha256 for design in campaign.designs},
+        seed=campaign.seed,
+        flights={planned.name: planned.n_runs for planned in plan.scenarios},
+        text=campaign.text.encode(),
+    )
 
 
 def frozen(folder: Path) -> Campaign:

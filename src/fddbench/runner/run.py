@@ -10,16 +10,14 @@ import numpy as np
 import numpy.typing as npt
 
 from fddbench.campaign.meaning import Campaign
-from fddbench.campaign.plan import Plan
+from fddbench.errors import ResultsWarning, warn
 from fddbench.results import manifest
-from fddbench.results.fingerprint import Fingerprint
 from fddbench.results.folder import claim, refuse_foreign
 from fddbench.results.lock import locked
 from fddbench.results.mending import mend
-from fddbench.results.provenance import collect
 from fddbench.runner.assembling import assemble
 from fddbench.runner.chunks import CHUNK, COMPILED_CHUNK, cut, missing, spans
-from fddbench.runner.fingerprint import fingerprint_of
+from fddbench.runner.fingerprint import fingerprint_of, provenance_for
 from fddbench.runner.flight import Flyer
 from fddbench.runner.pool import fly_all
 from fddbench.runner.work import flyer_of
@@ -99,7 +97,7 @@ def run_campaign(
     backend : {"auto", "llvm", "numpy"}
         ``auto`` compiles where llvmlite is installed; no part of any result.
     progress, notice : callable
-        Told after every chunk; told what slows the run down.
+        Told after every chunk; told what slows the run down, and what was damaged and is flown again.
 
     Raises
     ------
@@ -111,9 +109,10 @@ def run_campaign(
     plan, fingerprint = flyer.assembly.plan, fingerprint_of(campaign)
     _tell(flyer, notice)
     refuse_foreign(folder, fresh=fresh)
-    with locked(folder, notice=notice):
-        claim(folder, files=campaign.files(), provenance=_provenance(plan, fingerprint), fresh=fresh)
-        left, told = _left(folder, plan.n_cases, fingerprint.sha256, progress, notice)
+    say = notice or _warned
+    with locked(folder, notice=say):
+        claim(folder, files=campaign.files(), provenance=provenance_for(plan, fingerprint), fresh=fresh)
+        left, told = _left(folder, plan.n_cases, fingerprint.sha256, progress, say)
         size = chunk or (COMPILED_CHUNK if flyer.compiled else CHUNK)
         chunks = [spans(part) for part in cut(plan, left, size=size, jobs=jobs)]
         work = (str(folder), fingerprint.sha256, backend)
@@ -137,13 +136,12 @@ def _left(
     n_cases: int,
     fingerprint: str,
     progress: Callable[[Progress], None] | None,
-    notice: Callable[[str], None] | None,
+    say: Callable[[str], None],
 ) -> tuple[npt.NDArray[np.int64], "_Told"]:
     """Cases that are not there yet, and the count of those that are; what was lost is told."""
     done, lost = mend(folder, fingerprint=fingerprint, n_cases=n_cases)
     for what in lost:
-        if notice is not None:
-            notice(f"{folder}: {what}; its flights are flown again")
+        say(f"{folder}: {what}; its flights are flown again")
     left = missing(n_cases, [shard.cases for shard in done])
     statuses = Counter[str]()
     for shard in done:
@@ -169,6 +167,11 @@ class _Told:
             self.progress(Progress(flown=self.flown, done=done, total=self.total, statuses=self.statuses))
 
 
+def _warned(text: str) -> None:
+    """What is told to those who asked for no notices, because something is wrong on their disk."""
+    warn(text, ResultsWarning)
+
+
 def _tell(flyer: Flyer, notice: Callable[[str], None] | None) -> None:
     """Say which detectors cannot be compiled, and what that costs."""
     if notice is None or not flyer.compiled:
@@ -188,15 +191,3 @@ def _fly(folder: Path, shards: Generator[manifest.Shard, None, None], told: _Tol
     finally:
         shards.close()
     return False
-
-
-def _provenance(plan: Plan, fingerprint: Fingerprint) -> dict[str, object]:
-    campaign = plan.campaign
-    return collect(
-        fingerprint,
-        campaign=campaign.name,
-        designs_sha256={design.name: design.sha256 for design in campaign.designs},
-        seed=campaign.seed,
-        flights={planned.name: planned.n_runs for planned in plan.scenarios},
-        text=campaign.text.encode(),
-    )
