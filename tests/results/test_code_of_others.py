@@ -12,7 +12,6 @@ from tests.results.conftest import TEXT, fly
 from fddbench import kinds, load, report, sources
 from fddbench.campaign.load import read_campaign
 from fddbench.errors import ResultsError
-from fddbench.results.ours import refuse_names
 from fddbench.runner.fingerprint import fingerprint_of
 
 DETECTOR = """\
@@ -106,14 +105,12 @@ def test_a_module_beside_a_plugin_travels_from_a_notebook_too(beside, monkeypatc
     assert "detectors/helper.py" in campaign.files()
 
 
-def test_what_a_plugin_reads_has_no_name_of_the_results(beside, tmp_path):
-    text = READS.replace("Path(__file__).parent / 'weights.npy'", "Path(__file__).parent / 'our weights.npy'")
-    weights(beside.folder / "our weights.npy", 1.0)
+def test_a_file_with_any_name_travels(beside, tmp_path):
+    text = READS.replace("Path(__file__).parent / 'weights.npy'", "Path(__file__).parent / 'our weights.v1..npy'")
+    weights(beside.folder / "our weights.v1..npy", 1.0)
     campaign = beside(net_py=text)
-    for _ in range(2):
-        fly(campaign, tmp_path / "out")
-    with pytest.raises(ResultsError, match="stands on the file rows/x.parquet, which has a name of the results"):
-        refuse_names(["campaign.yaml", "detectors/x.py", "rows/x.parquet"])
+    assert [fly(campaign, tmp_path / "out").flights for _ in range(2)] == [12, 0]
+    assert fly(campaign, tmp_path / "out", fresh=True).flights == 12
 
 
 def test_two_designs_on_equal_files_of_two_names(beside, tmp_path):

@@ -10,10 +10,11 @@ from typing import Any
 from fddbench.errors import ResultsError
 from fddbench.results import manifest, ours
 from fddbench.results.fingerprint import Fingerprint, differences
+from fddbench.results.ours import RESERVED
 from fddbench.results.schema import SCHEMA_VERSION
 from fddbench.results.shards import file_sha256, write_bytes
 
-__all__ = ["changed_files", "claim", "provenance_of", "refuse_foreign"]
+__all__ = ["RESERVED", "changed_files", "claim", "provenance_of", "refuse_foreign"]
 
 _PROVENANCE = "provenance.json"
 _YAML = "campaign.yaml"
@@ -40,7 +41,6 @@ def claim(folder: Path, *, files: Mapping[str, bytes], provenance: Mapping[str, 
         The folder holds results of another campaign or program (the difference is told) or files that are not fddbench's.
     """
     refuse_foreign(folder, fresh=fresh)
-    ours.refuse_names(files)
     if (folder / _PROVENANCE).is_file() and not fresh:
         there = _read(folder)
         _require_same(folder, there, provenance, files)

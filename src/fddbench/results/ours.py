@@ -9,10 +9,11 @@ from pathlib import Path, PurePosixPath
 from fddbench.errors import ResultsError
 from fddbench.results.manifest import survey
 
-__all__ = ["clear", "refuse_foreign", "refuse_names"]
+__all__ = ["RESERVED", "clear", "refuse_foreign"]
 
-_OWN = ("manifest.jsonl", "report.html", "provenance.json", ".lock", ".pid")
-_FIXED = ("campaign.yaml", *_OWN)
+_FIXED = ("campaign.yaml", "manifest.jsonl", "report.html", "provenance.json", ".lock", ".pid")
+RESERVED = frozenset({*_FIXED, "rows", "events"})
+"""Names in a folder of results that no file beside a campaign can have when it travels there."""
 _SHARD = re.compile(r"(rows|events)/[0-9-]+\.parquet")
 _LEFT = re.compile(r"(.*/)?(\.[^/]+\.[0-9]+\.tmp|__pycache__/[^/]+\.pyc)")
 """What a crash in the middle of a write leaves behind, and what Python leaves beside the plug-ins."""
@@ -77,19 +78,6 @@ def _refuse_unknown(folder: Path, names: Collection[str], *, recognised: bool) -
     )
 
 
-def refuse_names(names: Collection[str]) -> None:
-    """Refuse files that plug-ins stand on and that have the names of ours.
-
-    Raises
-    ------
-    ResultsError
-        With the first of them.
-    """
-    for name in names:
-        if not _may_be_frozen(name):
-            raise ResultsError(f"a plug-in stands on the file {name}, which has a name of the results; rename it")
-
-
 def clear(folder: Path, carried: Collection[str]) -> None:
     """Remove what fddbench writes, the provenance last: a folder that is half cleared is still known as ours."""
     frozen = [name for name in carried if _may_be_frozen(name)]
@@ -119,7 +107,7 @@ def _is_ours(name: str, carried: Collection[str], *, anything_frozen: bool) -> b
 def _may_be_frozen(name: str) -> bool:
     """Whether a file of this name may be kept beside results: it stays in the folder, and is none of our own."""
     path = PurePosixPath(name)
-    return not path.is_absolute() and ".." not in path.parts and path.parts[0] not in (*_OWN, "rows", "events")
+    return path.parts[:1] != () and not path.is_absolute() and ".." not in path.parts and path.parts[0] not in RESERVED
 
 
 def _is_listed(folder: Path) -> bool:

@@ -16,6 +16,7 @@ from fddbench.runner.work import fly_and_write
 __all__ = ["fly_all"]
 
 _ATTEMPTS = 3
+_SAFE_PATH = "PYTHONSAFEPATH"
 Work = tuple[str, str, str]
 """Folder of results, the fingerprint of what flies and the back end."""
 
@@ -61,15 +62,16 @@ def _once(work: Work, chunks: Sequence[Spans], *, jobs: int, threads: bool) -> I
 
 @contextmanager
 def _safe_path() -> Iterator[None]:
-    """Workers begin without the folder one works in on their path: a plug-in there may be called random.py."""
-    before = os.environ.get("PYTHONSAFEPATH")
-    os.environ["PYTHONSAFEPATH"] = "1"
+    """Begin workers without the working folder in their path: a ``types.py`` in it would be theirs instead of Python's."""
+    before = os.environ.get(_SAFE_PATH)
+    os.environ[_SAFE_PATH] = "1"
     try:
         yield
     finally:
-        os.environ.pop("PYTHONSAFEPATH")
-        if before is not None:
-            os.environ["PYTHONSAFEPATH"] = before
+        if before is None:
+            del os.environ[_SAFE_PATH]
+        else:
+            os.environ[_SAFE_PATH] = before
 
 
 def _begin_worker() -> None:
