@@ -4,8 +4,10 @@ Every message names the place, what was received, what is allowed and what to do
 ``__init__`` of their own, because only those survive the way back from a worker process.
 """
 
+import sys
 import sysconfig
 import traceback
+import warnings
 from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -16,11 +18,15 @@ __all__ = [
     "DesignError",
     "FddbenchError",
     "Mistake",
+    "OtherProgramWarning",
+    "PartialResultsWarning",
     "ResultsError",
+    "ResultsWarning",
     "UnknownNameError",
     "did_you_mean",
     "place_of",
     "reason_of",
+    "warn",
 ]
 
 _LONGEST = 200
@@ -59,6 +65,14 @@ def place_of(error: BaseException) -> str:
     # a package of somebody else's is installed like NumPy; where nothing lies outside, it is the one
     frames = [f for f in foreign if not any(Path(f.filename).is_relative_to(folder) for folder in ours)] or foreign
     return f" ({frames[-1].filename}:{frames[-1].lineno})" if frames else ""
+
+
+def warn(message: str, category: type[Warning]) -> None:
+    """Warn at the line outside this package that asked."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("fddbench."):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(message, category, stacklevel=level)
 
 
 class FddbenchError(Exception):
@@ -137,3 +151,15 @@ class ResultsError(FddbenchError):
     def __str__(self) -> str:
         """The message as written."""
         return self.message
+
+
+class ResultsWarning(UserWarning):
+    """Something about a folder of results that a reader must know; the commands print it."""
+
+
+class PartialResultsWarning(ResultsWarning):
+    """A folder holds some of the flights of its campaign."""
+
+
+class OtherProgramWarning(ResultsWarning):
+    """What reads or flies again is another program than the one that wrote the folder."""

@@ -14,7 +14,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from hashlib import sha256
-from importlib.machinery import ModuleSpec
+from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
 from threading import RLock
 from types import ModuleType
@@ -146,7 +146,7 @@ def _read(folder: Path, name: str) -> bytes | None:
 
 
 class _Siblings(importlib.abc.MetaPathFinder):
-    """Finds modules beside a plug-in while it is imported, after everything that is installed."""
+    """Finds modules beside a plug-in while it is imported, unless one of that name is installed."""
 
     def __init__(self, folder: Path) -> None:
         self.folder, self.found, self.modules = folder, list[str](), list[str]()
@@ -155,14 +155,18 @@ class _Siblings(importlib.abc.MetaPathFinder):
         """Spec of a sibling."""
         del target
         file = self.folder / f"{name}.py"
-        if path is not None or not file.is_file():
+        if path is not None or not file.is_file() or name in sys.stdlib_module_names:
+            return None
+        # a notebook has the folder it works in on its path: what is found there is a sibling too, and must travel
+        installed = PathFinder.find_spec(name)
+        if installed is not None and (installed.origin is None or Path(installed.origin).resolve() != file.resolve()):
             return None
         self.found.append(file.name)
         self.modules.append(name)
         return importlib.util.spec_from_file_location(name, file)
 
     def __enter__(self) -> "_Siblings":
-        sys.meta_path.append(self)
+        sys.meta_path.insert(0, self)
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -13,7 +13,7 @@ from tests.runner.conftest import TEXT, write
 
 from fddbench import load
 from fddbench.campaign.load import read_campaign
-from fddbench.errors import ResultsError
+from fddbench.errors import PartialResultsWarning, ResultsError
 from fddbench.results import manifest
 from fddbench.runner.run import run_campaign
 
@@ -61,16 +61,22 @@ def test_a_damaged_folder_is_mended_to_the_same_rows(everything, tmp_path, damag
     else:
         data[len(data) // 2] ^= 1
         path.write_bytes({"truncated": data[:-10], "emptied": b"", "flipped": bytes(data)}[damage])
-    if damage != "half a line":
+    if damage == "half a line":
+        with pytest.warns(PartialResultsWarning):
+            load(folder)
+    else:
         with pytest.raises(ResultsError, match="run the campaign again"):
             load(folder)
-    report = run_campaign(everything, folder, jobs=1)
+    told = []
+    report = run_campaign(everything, folder, jobs=1, notice=told.append)
+    assert [text for text in told if "is damaged or gone; its flights are flown again" in text] == told
+    assert len(told) == (damage != "half a line")
     assert 0 < report.flights < report.total
     assert load(folder).equals(before)
 
 
 def _hold(folder, ready):
-    from fddbench.results.folder import locked
+    from fddbench.results.lock import locked
 
     with locked(folder):
         ready.set()

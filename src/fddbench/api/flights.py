@@ -10,12 +10,11 @@ from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
 from fddbench.errors import FddbenchError
 from fddbench.interfaces import Floats, Recording
-from fddbench.results.folder import provenance_of
 from fddbench.results.table import named
 from fddbench.runner.assembling import assemble
 from fddbench.runner.declared import declared_rows
+from fddbench.runner.fingerprint import frozen
 from fddbench.runner.replay import replay_campaign
-from fddbench.runner.work import frozen
 
 __all__ = ["score", "signals"]
 
@@ -111,5 +110,5 @@ def _campaign(source: Campaign | str | Path) -> Campaign:
         return source
     path = Path(source)
     if (path / "provenance.json").is_file():
-        return frozen(path, provenance_of(path)["campaign_sha256"])
+        return frozen(path)
     return read_campaign(path)

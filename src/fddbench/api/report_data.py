@@ -8,14 +8,16 @@ import numpy as np
 import pandas as pd
 import yaml
 
+from fddbench.campaign.meaning import Campaign
 from fddbench.reporting.page import ReportData
 from fddbench.reporting.published import iterations_for, published_for
 from fddbench.results.folder import provenance_of
-from fddbench.results.table import load, load_events
+from fddbench.results.table import read_events, read_rows
+from fddbench.results.whole import holdings
 from fddbench.runner.assembling import assemble
+from fddbench.runner.fingerprint import frozen, other_program
 from fddbench.runner.load import detector_load, in_words
-from fddbench.runner.replay import replay, sampled_cases
-from fddbench.runner.work import frozen
+from fddbench.runner.replay import replay_campaign, sampled_cases
 
 __all__ = ["report_data"]
 
@@ -31,8 +33,8 @@ def report_data(folder: Path) -> ReportData:
     FddbenchError
         No folder of results, or one that is damaged.
     """
-    provenance, rows = provenance_of(folder), load(folder)
-    campaign = frozen(folder, provenance["campaign_sha256"])
+    provenance, rows, found = provenance_of(folder), read_rows(folder), holdings(folder)
+    campaign = frozen(folder)
     content: dict[str, Any] = {name: getattr(campaign, name) for name in _SETTINGS} | dict(campaign.choices)
     content |= yaml.safe_load(campaign.text)
     assembly, bench = assemble(campaign), campaign.bench
@@ -44,8 +46,8 @@ def report_data(folder: Path) -> ReportData:
     return ReportData(
         campaign=content,
         rows=rows,
-        events=load_events(folder),
-        provenance=_flat(provenance),
+        events=read_events(folder),
+        provenance=_flat(provenance) | _replayed(folder, campaign),
         designs=[
             {
                 "name": d.name,
@@ -58,14 +60,21 @@ def report_data(folder: Path) -> ReportData:
             }
             for d in campaign.designs
         ],
-        recordings=list(replay(folder, chosen, seconds=_seconds(rows), signals=bench.shown)),
+        recordings=list(replay_campaign(campaign, chosen, seconds=_seconds(rows), signals=bench.shown)),
         published=published_for(content, getattr(bench, "published", "")),
         iterations=iterations_for(getattr(bench, "iterations", "")),
         envelope_axes=getattr(bench, "envelope_axes", ()),
         choices=tuple(campaign.choices),
         in_sample=campaign.in_sample,
         limits_from=bench.limits_from,
+        partial=found.sentence if found.partial else "",
     )
+
+
+def _replayed(folder: Path, campaign: Campaign) -> dict[str, str]:
+    """Line that says by which other program the pictures were flown."""
+    other = other_program(folder, campaign)
+    return {"signals flown again by another program": other} if other else {}
 
 
 def _seconds(rows: pd.DataFrame) -> dict[str, float]:
@@ -79,11 +88,11 @@ def _seconds(rows: pd.DataFrame) -> dict[str, float]:
 
 
 def _flat(provenance: Mapping[str, object]) -> dict[str, str]:
-    """Provenance as text, nested entries by dotted names."""
+    """Provenance as text, nested entries by dotted names; of the source its fingerprint is enough."""
     flat: dict[str, str] = {}
     for name, value in provenance.items():
-        if isinstance(value, Mapping):
+        if isinstance(value, Mapping) and name != "source":
             flat |= {f"{name}.{inner}": str(entry) for inner, entry in value.items()}
-        else:
+        elif name != "source":
             flat[name] = str(value)
     return flat

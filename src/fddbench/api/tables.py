@@ -9,9 +9,8 @@ from fddbench.errors import FddbenchError
 from fddbench.metrics.alarms import ALARMS, summarize_alarms
 from fddbench.metrics.summary import NEEDS, SUMMARY, summarize
 from fddbench.results import table
-from fddbench.results.folder import provenance_of
 from fddbench.results.schema import CASE, EVENTS, rows_schema
-from fddbench.runner.work import frozen
+from fddbench.runner.fingerprint import frozen
 
 __all__ = ["alarms", "columns", "load", "load_events", "summary"]
 
@@ -44,8 +43,7 @@ def alarms(folder: str | Path) -> pd.DataFrame:
 
 def in_sample(folder: str | Path) -> tuple[str, ...]:
     """Detectors of a folder of results whose designs were tuned on its flights."""
-    path = Path(folder)
-    return frozen(path, provenance_of(path)["campaign_sha256"]).in_sample
+    return frozen(Path(folder)).in_sample
 
 
 def columns(table: str = "rows") -> dict[str, str]:

@@ -12,11 +12,20 @@ _DIGEST = 32
 
 
 def folder() -> Path:
-    """Where objects are kept: ``$FDDBENCH_CACHE``, else ``fddbench`` in the user's cache directory."""
+    """Where objects are kept: ``$FDDBENCH_CACHE``, else ``fddbench`` in the user's cache directory.
+
+    Raises
+    ------
+    OSError
+        The user has no home, as in many containers.
+    """
     chosen = os.environ.get("FDDBENCH_CACHE")
     if chosen:
         return Path(chosen)
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "fddbench"
+    try:
+        return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "fddbench"
+    except RuntimeError as error:
+        raise OSError(f"no cache without a home: {error}") from error
 
 
 def key(*parts: str) -> str:
@@ -32,7 +41,7 @@ def source() -> str:
 
 
 def load(name: str) -> bytes | None:
-    """Object stored under a name; None when there is none or when it is not what was stored."""
+    """Object stored under a name; None when there is none, when it is not what was stored or where nothing can be kept."""
     try:
         content = (folder() / f"{name}.o").read_bytes()
     except OSError:
@@ -51,6 +60,6 @@ def store(name: str, body: bytes) -> None:
     except OSError:
         return
     try:
-        aside.replace(folder() / f"{name}.o")
+        aside.replace(aside.with_name(f"{name}.o"))
     except OSError:
         aside.unlink(missing_ok=True)

@@ -54,9 +54,12 @@ def _summary(folder: Path, *, wide: bool) -> None:
     from fddbench.metrics.alarms import summarize_alarms
     from fddbench.metrics.summary import NEEDS, summarize
     from fddbench.reporting.terminal import to_text
-    from fddbench.results.table import load
+    from fddbench.results.table import read_rows
+    from fddbench.results.whole import holdings
 
-    rows, own = load(folder, ["case", "reason", *NEEDS]), in_sample(folder)
+    rows, own, found = read_rows(folder, ["case", "reason", *NEEDS]), in_sample(folder), holdings(folder)
+    if found.partial:
+        print(f"not the whole campaign: {found.sentence}")
     print(to_text(summarize(rows, in_sample=own), summarize_alarms(rows, in_sample=own), wide=wide))
     failed = rows[~rows["status"].isin(["ok", "infeasible"])]
     for (detector, status, reason), group in failed.groupby(["detector", "status", "reason"], dropna=False):
@@ -73,12 +76,17 @@ def report(args: argparse.Namespace) -> int:
 
 
 def scores(args: argparse.Namespace) -> int:
-    """Print the scores of a folder of results as YAML, to keep under version control."""
+    """Print the scores of a folder of results as YAML, to keep under version control.
+
+    A folder that does not hold all flights of its campaign is refused.
+    """
     from fddbench.api.tables import in_sample
     from fddbench.reporting.scores import scores_text
     from fddbench.results.folder import provenance_of
     from fddbench.results.table import load
+    from fddbench.results.whole import require_whole
 
+    require_whole(args.folder)
     print(scores_text(load(args.folder), provenance_of(args.folder), in_sample(args.folder)), end="")
     return 0
 

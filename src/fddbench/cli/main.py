@@ -3,13 +3,15 @@
 import argparse
 import os
 import sys
+import warnings
 from collections.abc import Callable
 from io import TextIOWrapper
 from pathlib import Path
+from typing import Any
 
 from fddbench import __version__
 from fddbench.cli import commands, designing
-from fddbench.errors import FddbenchError
+from fddbench.errors import FddbenchError, ResultsWarning
 
 __all__ = ["entry", "main", "parser"]
 
@@ -128,7 +130,9 @@ def main(argv: list[str] | None = None) -> int:
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")  # a file's name may hold what a terminal cannot print
     try:
-        code: int = args.command(args)
+        with warnings.catch_warnings():
+            _say_in_words()
+            code: int = args.command(args)
         sys.stdout.flush()
         return code
     except FddbenchError as error:
@@ -145,6 +149,20 @@ def main(argv: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("fddbench: interrupted", file=sys.stderr)
         return 130
+
+
+def _say_in_words() -> None:
+    """Print what must be known of a folder of results as a line, not as a warning with a place in the code."""
+    as_usual = warnings.showwarning
+
+    def show(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
+        if issubclass(category, ResultsWarning):
+            print(f"fddbench: {message}", file=sys.stderr)
+        else:
+            as_usual(message, category, *place, **more)
+
+    warnings.simplefilter("always", ResultsWarning)
+    warnings.showwarning = show
 
 
 def entry() -> None:

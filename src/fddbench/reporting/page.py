@@ -49,6 +49,8 @@ class ReportData:
         Parameters that belong on the two axes of a picture of the envelope.
     in_sample : sequence of str
         Detectors that were tuned on these flights.
+    partial : str
+        How many flights of how many the folder holds, "" when all.
     """
 
     campaign: Mapping[str, Any]
@@ -63,6 +65,7 @@ class ReportData:
     choices: Sequence[str] = ()
     envelope_axes: Sequence[tuple[str, str]] = ()
     in_sample: Sequence[str] = ()
+    partial: str = ""
 
 
 def write_page(report: ReportData, output: Path) -> None:
@@ -96,6 +99,7 @@ def _content(report: ReportData) -> dict[str, Any]:
         "campaign": report.campaign,
         "settings": _settings(report.campaign, report.choices),
         "campaign_text": _as_yaml(report.campaign),
+        "partial": report.partial,
         "flown": headlines.flown_sentence(rows),
         "findings": headlines.findings(rows, alarms, report.in_sample),
         "in_sample": report.in_sample,

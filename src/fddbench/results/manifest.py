@@ -1,15 +1,22 @@
-"""The list of what a folder of results holds; a shard that is not listed does not exist."""
+"""The list of what a folder of results holds; a shard that is not listed does not exist.
+
+A line is written whole, with its own checksum. A last line without its end is an append that a crash cut off: its flights are
+flown again. Any other line that is not as it was written is damage, which nobody reads over.
+"""
 
 import json
 import os
 import re
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
+from hashlib import sha256
 from pathlib import Path
+from typing import Any
 
-from fddbench.results.shards import file_sha256, write_bytes
+from fddbench.errors import ResultsError
+from fddbench.results.shards import write_bytes
 
-__all__ = ["Shard", "append", "keep", "shards"]
+__all__ = ["Shard", "Survey", "append", "keep", "shards", "survey"]
 
 _NAME = "manifest.jsonl"
 _FILE = re.compile(r"(rows|events)/[0-9-]+\.parquet")
@@ -24,11 +31,13 @@ class Shard:
     cases : tuple of (first, count)
         Runs of case numbers in it.
     rows, rows_sha256 : str
-        File of rows inside the folder, and its fingerprint.
+        File of rows inside the folder, and its sha256.
     events, events_sha256 : str or None
         File of events, None when the chunk has none.
     statuses : mapping of str to int
         Rows by status.
+    fingerprint : str
+        Of the campaign and the program that flew it.
     """
 
     cases: tuple[tuple[int, int], ...]
@@ -37,59 +46,102 @@ class Shard:
     events: str | None
     events_sha256: str | None
     statuses: dict[str, int]
+    fingerprint: str
+
+    @property
+    def numbers(self) -> set[int]:
+        """Case numbers in it."""
+        return {case for first, count in self.cases for case in range(first, first + count)}
+
+
+@dataclass(frozen=True)
+class Survey:
+    """What a manifest says: the shards it lists, and in words what is wrong with it otherwise."""
+
+    shards: tuple[Shard, ...]
+    wrong: tuple[str, ...] = field(default=())
 
 
 def append(folder: Path, shard: Shard) -> None:
     """Add one line, durably."""
-    with (folder / _NAME).open("a", encoding="utf-8") as file:
-        file.write(json.dumps(asdict(shard)) + "\n")
+    # never through a link: what it points to is somebody else's
+    handle = os.open(folder / _NAME, os.O_WRONLY | os.O_APPEND | getattr(os, "O_NOFOLLOW", 0))
+    with os.fdopen(handle, "ab") as file:
+        file.write(_line(shard))
         file.flush()
         os.fsync(file.fileno())
 
 
 def keep(folder: Path, kept: Sequence[Shard]) -> None:
     """List these shards only, in one step; what is not listed any more is flown again."""
-    write_bytes(folder / _NAME, "".join(json.dumps(asdict(shard)) + "\n" for shard in kept).encode())
+    write_bytes(folder / _NAME, b"".join(map(_line, kept)))
 
 
-def shards(folder: Path, *, intact: bool = False) -> tuple[Shard, ...]:
+def shards(folder: Path) -> tuple[Shard, ...]:
     """What is listed; a last line cut off by a crash is no line.
 
-    Parameters
-    ----------
-    folder : Path
-        Folder of results.
-    intact : bool
-        Only shards whose files are there with the right fingerprint.
+    Raises
+    ------
+    ResultsError
+        The list is missing, or a line of it is not as it was written.
     """
-    path = folder / _NAME
-    lines = path.read_bytes().split(b"\n") if path.is_file() else []
+    found = survey(folder)
+    if found.wrong:
+        more = f" (and {len(found.wrong) - 1} more like it)" if len(found.wrong) > 1 else ""
+        raise ResultsError(
+            f"{folder / _NAME}, {found.wrong[0]}{more}. Nothing is read from a list that is damaged: put the file back, or "
+            "run the campaign again on this folder, it flies again what is lost"
+        )
+    return found.shards
+
+
+def survey(folder: Path) -> Survey:
+    """What is listed and what is wrong, without a refusal, for who mends it.
+
+    Raises
+    ------
+    ResultsError
+        There is no list at all.
+    """
+    try:
+        *lines, _cut_off = (folder / _NAME).read_bytes().split(b"\n")
+    except OSError as error:
+        raise ResultsError(
+            f"{folder / _NAME} cannot be read ({error.strerror}), so nobody knows what {folder} holds; put it back, or fly "
+            "everything anew with --fresh"
+        ) from error
     found: list[Shard] = []
+    wrong: list[str] = []
     taken: set[int] = set()
-    for shard in map(_shard, lines):
-        if shard is not None and (not intact or _intact(folder, shard)):
-            cases = {case for first, count in shard.cases for case in range(first, first + count)}
-            if not cases & taken:
-                found.append(shard)
-                taken |= cases
-    return tuple(found)
+    for number, line in enumerate(lines, start=1):
+        shard = _shard(line)
+        numbers = shard.numbers if shard is not None else set()
+        if shard is None:
+            wrong.append(f"line {number}: it is not the line that was written")
+        elif numbers & taken:
+            wrong.append(f"line {number}: it lists flights that an earlier line has (case {min(numbers & taken)})")
+        else:
+            found.append(shard)
+            taken |= numbers
+    return Survey(tuple(found), tuple(wrong))
+
+
+def _line(shard: Shard) -> bytes:
+    """Line of a shard, ended, with the sha256 of the rest of it."""
+    content: dict[str, Any] = asdict(shard)
+    text = json.dumps(content)
+    return json.dumps(content | {"line_sha256": sha256(text.encode()).hexdigest()}).encode() + b"\n"
 
 
 def _shard(line: bytes) -> Shard | None:
-    """Shard of a line, None for one that is damaged or names files elsewhere."""
+    """Shard of a line, None for one that is not as it was written or names files elsewhere."""
     try:
         entry = json.loads(line)
+        del entry["line_sha256"]
         entry["cases"] = tuple((int(first), int(count)) for first, count in entry["cases"])
         shard = Shard(**entry)
         names = (shard.rows, *([shard.events] if shard.events is not None else []))
-        return shard if all(_FILE.fullmatch(name) for name in names) else None
-    except (ValueError, TypeError, KeyError, AttributeError):
+        sound = all(_FILE.fullmatch(name) for name in names) and _line(shard) == line + b"\n"
+        return shard if sound else None
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return None
-
-
-def _intact(folder: Path, shard: Shard) -> bool:
-    files: Sequence[tuple[str | None, str | None]] = (
-        (shard.rows, shard.rows_sha256),
-        (shard.events, shard.events_sha256),
-    )
-    return all(name is None or file_sha256(folder / name) == sha256 for name, sha256 in files)

@@ -1,5 +1,9 @@
-"""Tables on disk that survive a crash: written aside, synced, renamed, and listed with their sha256."""
+"""Tables on disk that survive a crash: written aside, synced, renamed, and listed with their sha256.
 
+Every shard carries the fingerprint of what flew it and the version of its schema; a reader that expects another refuses.
+"""
+
+import errno
 import hashlib
 import os
 from collections.abc import Sequence
@@ -9,57 +13,124 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from fddbench.errors import ResultsError
+from fddbench.results.schema import SCHEMA_VERSION
 
-__all__ = ["file_sha256", "read_table", "write_bytes", "write_table"]
+__all__ = ["file_sha256", "is_durable", "read_table", "write_bytes", "write_table"]
+
+_SCHEMA, _FINGERPRINT = b"fddbench_schema", b"fddbench_fingerprint"
+_NO_SYNC = {errno.EINVAL, errno.EBADF, errno.ENOTSUP, errno.EOPNOTSUPP, errno.ENOSYS, errno.EACCES, errno.EPERM}
+"""What systems answer that cannot make a rename durable; the file itself has been."""
 
 
 def write_bytes(path: Path, data: bytes) -> None:
-    """Put a file in place, whole or not at all."""
+    """Put a file in place, whole or not at all; what was a link there is replaced, not followed."""
     path.parent.mkdir(parents=True, exist_ok=True)
     aside = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    with aside.open("wb") as file:
+    aside.unlink(missing_ok=True)
+    with aside.open("xb") as file:
         file.write(data)
         file.flush()
         os.fsync(file.fileno())
     aside.replace(path)
-    _sync_folder(path.parent)
+    is_durable(path.parent)
 
 
-def write_table(path: Path, table: pa.Table) -> str:
-    """Write a table as Parquet with page checksums; the file's sha256."""
+def write_table(path: Path, table: pa.Table, *, fingerprint: str) -> str:
+    """Write a table as Parquet with page checksums and the fingerprint of what flew it; the file's sha256.
+
+    Raises
+    ------
+    ResultsError
+        The file would lie behind a link.
+    """
+    if path.parent.is_symlink():
+        raise ResultsError(f"{path.parent} is a link; results are not written through one. Remove it and run again")
     sink = pa.BufferOutputStream()
-    pq.write_table(table, sink, compression="zstd", write_page_checksum=True)
+    carried = {**(table.schema.metadata or {}), _FINGERPRINT: fingerprint.encode()}
+    pq.write_table(table.replace_schema_metadata(carried), sink, compression="zstd", write_page_checksum=True)
     data = sink.getvalue().to_pybytes()
     write_bytes(path, data)
     return hashlib.sha256(data).hexdigest()
 
 
-def read_table(path: Path, sha256: str, columns: Sequence[str] | None = None) -> pa.Table:
+def read_table(
+    path: Path, sha256: str, *, schema: pa.Schema, fingerprint: str, columns: Sequence[str] | None = None
+) -> pa.Table:
     """Table of a shard, all of it or some columns.
+
+    Parameters
+    ----------
+    path, sha256 : Path, str
+        The file, and what it was when it was written.
+    schema : pyarrow.Schema
+        Columns that it has, maybe among others.
+    fingerprint : str
+        What it carries.
+    columns : sequence of str, optional
+        Only these.
 
     Raises
     ------
     ResultsError
-        The file is missing or is not the one that was written.
+        The file is missing, is not the one that was written, or is of another schema or program.
     """
     data = path.read_bytes() if path.is_file() else None
     if data is None or hashlib.sha256(data).hexdigest() != sha256:
         state = "is missing" if data is None else "is not the file that was written (its sha256 differs)"
         raise ResultsError(f"{path} {state}; run the campaign again on this folder, it flies again what is lost")
-    chosen = None if columns is None else list(columns)
-    return pq.read_table(pa.BufferReader(data), columns=chosen, page_checksum_verification=True)
+    try:
+        _require(path, pq.read_schema(pa.BufferReader(data)), schema, fingerprint)
+        chosen = None if columns is None else list(columns)
+        return pq.read_table(pa.BufferReader(data), columns=chosen, page_checksum_verification=True)
+    except (pa.ArrowException, OSError) as error:
+        reason = str(error).splitlines()[0]
+        raise ResultsError(f"{path} is no table of fddbench ({reason}); fly the campaign anew with --fresh") from error
+
+
+def _require(path: Path, found: pa.Schema, expected: pa.Schema, fingerprint: str) -> None:
+    """Refuse a table of another schema or program."""
+    carried = found.metadata or {}
+    version = carried.get(_SCHEMA, b"none").decode(errors="replace")
+    if version != SCHEMA_VERSION:
+        raise ResultsError(
+            f"{path} has schema version {version}, this fddbench reads {SCHEMA_VERSION}; read it with the fddbench that "
+            "wrote it, or fly the campaign anew with --fresh"
+        )
+    for field in expected:
+        here = found.field(field.name).type if field.name in found.names else "missing"
+        if here != field.type:
+            raise ResultsError(
+                f"{path} has a foreign schema: column {field.name} is {here}, needs {field.type}; fly the campaign anew "
+                "with --fresh"
+            )
+    if carried.get(_FINGERPRINT, b"").decode(errors="replace") != fingerprint:
+        raise ResultsError(
+            f"{path} carries another fingerprint than the manifest says: it was flown by another campaign or program. Put "
+            "the right file back, or fly the campaign anew with --fresh"
+        )
 
 
 def file_sha256(path: Path) -> str | None:
-    """Fingerprint of a file; None when it is not there."""
+    """Sha256 of a file; None when it is not there."""
     return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else None
 
 
-def _sync_folder(folder: Path) -> None:
-    """Make a rename durable, where the system lets a folder be opened."""
-    if os.name == "posix":
+def is_durable(folder: Path) -> bool:
+    """Make renames in a folder durable; False where the system cannot, which is no reason to stop."""
+    if os.name != "posix":
+        return False
+    try:
         handle = os.open(folder, os.O_RDONLY)
-        try:
-            os.fsync(handle)
-        finally:
-            os.close(handle)
+    except OSError as error:
+        if error.errno in _NO_SYNC:
+            return False
+        raise
+    try:
+        os.fsync(handle)
+    except OSError as error:
+        if error.errno in _NO_SYNC:
+            return False
+        raise
+    finally:
+        os.close(handle)
+    return True

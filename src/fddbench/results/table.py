@@ -1,6 +1,6 @@
 """Reads the tables of a folder of results, by its manifest."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -8,23 +8,24 @@ import pandas as pd
 import pyarrow as pa
 import pyarrow.compute as pc
 
-from fddbench.errors import ResultsError
+from fddbench.errors import PartialResultsWarning, ResultsError, warn
 from fddbench.results.folder import provenance_of
 from fddbench.results.manifest import shards
-from fddbench.results.schema import CASE, EVENTS
+from fddbench.results.schema import CASE, EVENTS, rows_schema
 from fddbench.results.shards import read_table
+from fddbench.results.whole import holdings
 
-__all__ = ["load", "load_events", "named"]
+__all__ = ["load", "load_events", "named", "read_events", "read_rows"]
 
 _ADDRESS = ("scenario", "point", "level", "run")
 """Columns that name a flight; ``case``, made of them when rows are read, is their text: jam_a/3/0/17."""
 
 
 def load(folder: str | Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
-    """Rows of a campaign, one per case and detector, in the order of the campaign's scenarios, cases and detectors.
+    """Rows of a campaign, one per case and detector, in the order of cases and of the campaign's detectors.
 
-    Arrow-backed, so that null stays null. ``frame.attrs["columns"]`` says what each column means, as `fddbench.columns` does;
-    ``case`` names the flight, ``jam_a/3/0/17``, as messages do and as `fddbench.signals` takes it.
+    Arrow-backed, so that null stays null; the columns explain themselves in ``fddbench.results.schema`` and in
+    ``rows.attrs["columns"]``.
 
     Parameters
     ----------
@@ -33,22 +34,55 @@ def load(folder: str | Path, columns: Sequence[str] | None = None) -> pd.DataFra
     columns : sequence of str, optional
         Only these; a large campaign then takes a fraction of the memory.
 
+    Warns
+    -----
+    PartialResultsWarning
+        The folder does not hold all flights of its campaign.
+
     Raises
     ------
     ResultsError
-        No folder of results, or a shard that is damaged.
+        No folder of results, one whose list or shard is damaged, or one of another schema.
     """
-    path = Path(folder)
-    tables = _tables(path, "rows", None if columns is None else {*columns, *_ADDRESS, "detector"} - {"case"})
-    if not tables:
-        raise ResultsError(f"{path} holds no rows yet; run the campaign first")
-    return _sorted(pa.concat_tables(tables, promote_options="default"), path, columns)
+    rows = read_rows(Path(folder), columns)
+    _warn(Path(folder))
+    return rows
 
 
 def load_events(folder: str | Path) -> pd.DataFrame:
-    """Events of a campaign, one per case, detector and fault of scenarios with several or ending faults; may be empty."""
-    path = Path(folder)
-    return _sorted(pa.concat_tables([EVENTS.empty_table(), *_tables(path, "events")]), path)
+    """Events of a campaign, one per case, detector and fault of scenarios with several or ending faults; may be empty.
+
+    Warns and raises as `load`.
+    """
+    events = read_events(Path(folder))
+    _warn(Path(folder))
+    return events
+
+
+def read_rows(folder: Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
+    """Rows as of `load`, for those who say themselves whether they are all.
+
+    Raises
+    ------
+    ResultsError
+        As `load`.
+    """
+    wanted = None if columns is None else sorted({*columns, *_ADDRESS, "detector"} - {CASE.name})
+    tables = _tables(folder, "rows", rows_schema(()), wanted)
+    if not tables:
+        raise ResultsError(f"{folder} holds no rows yet; run the campaign first")
+    return _sorted(tables, folder, columns)
+
+
+def read_events(folder: Path) -> pd.DataFrame:
+    """Events as of `load_events`, for those who say themselves whether they are all.
+
+    Raises
+    ------
+    ResultsError
+        As `load`.
+    """
+    return _sorted([EVENTS.empty_table(), *_tables(folder, "events", EVENTS)], folder)
 
 
 def named(table: pa.Table) -> pa.Table:
@@ -57,22 +91,43 @@ def named(table: pa.Table) -> pa.Table:
     return table.add_column(0, CASE, pc.binary_join_element_wise(*parts, "/"))
 
 
-def _tables(folder: Path, which: str, columns: Collection[str] | None = None) -> Sequence[pa.Table]:
-    provenance_of(folder)
+def _warn(folder: Path) -> None:
+    found = holdings(folder)
+    if found.partial:
+        warn(
+            f"{folder} is partial, it holds {found.sentence}; run the campaign again to fly the rest",
+            PartialResultsWarning,
+        )
+
+
+def _tables(folder: Path, which: str, schema: pa.Schema, columns: Sequence[str] | None = None) -> list[pa.Table]:
+    listed = provenance_of(folder)["fingerprints"]
     found = []
     for shard in shards(folder):
-        listed = {"rows": (shard.rows, shard.rows_sha256), "events": (shard.events, shard.events_sha256)}
-        name, sha256 = listed[which]
+        if shard.fingerprint not in listed:
+            raise ResultsError(
+                f"{folder / shard.rows} was flown by a campaign or program that the folder does not list; fly the campaign "
+                "anew with --fresh"
+            )
+        files = {"rows": (shard.rows, shard.rows_sha256), "events": (shard.events, shard.events_sha256)}
+        name, sha256 = files[which]
         if name is not None and sha256 is not None:
-            found.append(read_table(folder / name, sha256, None if columns is None else sorted(columns)))
+            options: dict[str, Any] = {"schema": schema, "fingerprint": shard.fingerprint, "columns": columns}
+            found.append(read_table(folder / name, sha256, **options))
     return found
 
 
-def _sorted(table: pa.Table, folder: Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
+def _sorted(tables: list[pa.Table], folder: Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
     """Sorted by scenario, point, level, run, detector and event; in Arrow, which copies once."""
+    try:
+        table = pa.concat_tables([each.replace_schema_metadata(None) for each in tables], promote_options="default")
+    except pa.ArrowException as error:
+        raise ResultsError(
+            f"the shards of {folder} have different columns; fly the campaign anew with --fresh"
+        ) from error
     provenance = provenance_of(folder)
     keys = table.select([name for name in ("point", "level", "run", "event") if name in table.column_names])
-    for name, listed in (("scenario", "scenarios"), ("detector", "designs_sha256")):
+    for name, listed in (("scenario", "flights"), ("detector", "designs_sha256")):
         order: Any = provenance.get(listed) or pc.unique(table[name]).to_pylist()
         keys = keys.append_column(name, pc.index_in(table[name], value_set=pa.array(list(order), pa.string())))
     by = [name for name in (*_ADDRESS, "detector", "event") if name in keys.column_names]

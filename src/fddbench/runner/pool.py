@@ -18,7 +18,7 @@ __all__ = ["fly_all"]
 _ATTEMPTS = 3
 _SAFE_PATH = "PYTHONSAFEPATH"
 Work = tuple[str, str, str]
-"""Folder of results, the campaign's sha256 and the back end."""
+"""Folder of results, the fingerprint of what flies and the back end."""
 
 
 def fly_all(work: Work, chunks: Sequence[Spans], *, jobs: int, threads: bool) -> Generator[Shard, None, None]:

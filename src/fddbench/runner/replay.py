@@ -13,11 +13,10 @@ from fddbench.campaign.addresses import Address
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.plan import PlannedScenario
 from fddbench.interfaces import Floats, Recording
-from fddbench.results.folder import provenance_of
 from fddbench.runner.assembling import assemble
 from fddbench.runner.assembly import Assembly, Batch
+from fddbench.runner.fingerprint import frozen
 from fddbench.runner.flight import Flyer
-from fddbench.runner.work import frozen
 
 __all__ = ["MOST_CASES", "replay", "replay_campaign", "sampled_cases"]
 
@@ -61,8 +60,7 @@ def replay(
     signals: Collection[str] | None = None,
 ) -> Iterator[Recording]:
     """Recordings of cases of a folder of results, from its frozen campaign; see `replay_campaign`."""
-    campaign = frozen(folder, provenance_of(folder)["campaign_sha256"])
-    yield from replay_campaign(campaign, cases, seconds=seconds, signals=signals)
+    yield from replay_campaign(frozen(folder), cases, seconds=seconds, signals=signals)
 
 
 def replay_campaign(

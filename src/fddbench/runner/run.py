@@ -10,11 +10,14 @@ import numpy as np
 import numpy.typing as npt
 
 from fddbench.campaign.meaning import Campaign
+from fddbench.errors import ResultsWarning, warn
 from fddbench.results import manifest
-from fddbench.results.folder import claim, locked
-from fddbench.results.provenance import collect
+from fddbench.results.folder import claim, refuse_foreign
+from fddbench.results.lock import locked
+from fddbench.results.mending import mend
 from fddbench.runner.assembling import assemble
 from fddbench.runner.chunks import CHUNK, COMPILED_CHUNK, cut, missing, spans
+from fddbench.runner.fingerprint import fingerprint_of, provenance_for
 from fddbench.runner.flight import Flyer
 from fddbench.runner.pool import fly_all
 from fddbench.runner.work import flyer_of
@@ -94,24 +97,26 @@ def run_campaign(
     backend : {"auto", "llvm", "numpy"}
         ``auto`` compiles where llvmlite is installed; no part of any result.
     progress, notice : callable
-        Told at the beginning and after every chunk; told what slows the run down.
+        Told at the beginning and after every chunk; told what slows the run down, and what was damaged and is flown again.
 
     Raises
     ------
     FddbenchError
-        The design makes no detector, the folder is another campaign's, or is being written.
+        The design makes no detector, the folder is another campaign's or program's, or is being written.
     """
     begun = time.monotonic()
     flyer = Flyer(assemble(campaign), backend)
-    plan = flyer.assembly.plan
+    plan, fingerprint = flyer.assembly.plan, fingerprint_of(campaign)
     _tell(flyer, notice)
-    with locked(folder):
-        claim(folder, files=campaign.files(), provenance=_provenance(campaign), fresh=fresh)
-        left, told = _left(folder, plan.n_cases, progress)
+    refuse_foreign(folder, fresh=fresh)
+    say = notice or _warned
+    with locked(folder, notice=say):
+        claim(folder, files=campaign.files(), provenance=provenance_for(plan, fingerprint), fresh=fresh)
+        left, told = _left(folder, plan.n_cases, fingerprint.sha256, progress, say)
         told.tell()
         size = chunk or (COMPILED_CHUNK if flyer.compiled else CHUNK)
         chunks = [spans(part) for part in cut(plan, left, size=size, jobs=jobs)]
-        work = (str(folder), campaign.sha256, backend)
+        work = (str(folder), fingerprint.sha256, backend)
         threads = flyer.compiled and not flyer.opaque
         if len(left) and threads:
             flyer_of(*work)
@@ -128,12 +133,16 @@ def run_campaign(
 
 
 def _left(
-    folder: Path, n_cases: int, progress: Callable[[Progress], None] | None
+    folder: Path,
+    n_cases: int,
+    fingerprint: str,
+    progress: Callable[[Progress], None] | None,
+    say: Callable[[str], None],
 ) -> tuple[npt.NDArray[np.int64], "_Told"]:
-    """Cases that are not there yet, and the count of those that are; shards that are damaged are struck off."""
-    listed = manifest.shards(folder, intact=True)
-    done = [shard for shard in listed if all(0 <= first < first + count <= n_cases for first, count in shard.cases)]
-    manifest.keep(folder, done)
+    """Cases that are not there yet, and the count of those that are; what was lost is told."""
+    done, lost = mend(folder, fingerprint=fingerprint, n_cases=n_cases)
+    for what in lost:
+        say(f"{folder}: {what}; its flights are flown again")
     left = missing(n_cases, [shard.cases for shard in done])
     statuses = Counter[str]()
     for shard in done:
@@ -163,6 +172,11 @@ class _Told:
             self.progress(Progress(flown=self.flown, done=done, total=self.total, statuses=self.statuses))
 
 
+def _warned(text: str) -> None:
+    """What is told to those who asked for no notices, because something is wrong on their disk."""
+    warn(text, ResultsWarning)
+
+
 def _tell(flyer: Flyer, notice: Callable[[str], None] | None) -> None:
     """Say which detectors cannot be compiled, and what that costs."""
     if notice is None or not flyer.compiled:
@@ -182,14 +196,3 @@ def _fly(folder: Path, shards: Generator[manifest.Shard, None, None], told: _Tol
     finally:
         shards.close()
     return False
-
-
-def _provenance(campaign: Campaign) -> dict[str, object]:
-    return collect(
-        campaign=campaign.name,
-        campaign_sha256=campaign.sha256,
-        designs_sha256={design.name: design.sha256 for design in campaign.designs},
-        scenarios=[scenario.name for scenario in campaign.scenarios],
-        seed=campaign.seed,
-        files=campaign.files(),
-    )

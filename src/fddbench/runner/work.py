@@ -9,9 +9,6 @@ import numpy as np
 import numpy.typing as npt
 import pyarrow as pa
 
-from fddbench.campaign.load import read_campaign
-from fddbench.campaign.meaning import Campaign
-from fddbench.errors import FddbenchError, ResultsError
 from fddbench.interfaces import NEVER
 from fddbench.metrics.rows import event_columns, score_columns, statuses
 from fddbench.metrics.scoring import Scoring
@@ -21,9 +18,10 @@ from fddbench.results.shards import write_table
 from fddbench.runner.assembling import assemble
 from fddbench.runner.assembly import Assembly, Batch, has_events
 from fddbench.runner.chunks import Spans, expand, spans
+from fddbench.runner.fingerprint import frozen_to_fly
 from fddbench.runner.flight import Flyer, Outcome
 
-__all__ = ["fly_and_write", "flyer_of", "frozen", "rows_and_events", "rows_of"]
+__all__ = ["fly_and_write", "flyer_of", "rows_and_events", "rows_of"]
 
 Columns = dict[str, pa.Array]
 Cases = npt.NDArray[np.int64]
@@ -32,55 +30,36 @@ _SHARED = ("scenario", "point", "level", "run", "detector", "status", "reason")
 _making = Lock()
 
 
-def flyer_of(folder: str, campaign_sha256: str, backend: str) -> Flyer:
+def flyer_of(folder: str, fingerprint: str, backend: str) -> Flyer:
     """What flies a frozen campaign, made and compiled once per process."""
     with _making:
-        return _flyer(folder, campaign_sha256, backend)
-
-
-def frozen(folder: Path, campaign_sha256: object) -> Campaign:
-    """Campaign of a folder of results, once it is the one that the results are of.
-
-    Raises
-    ------
-    ResultsError
-        The frozen campaign, a design or a plug-in was changed or is gone.
-    """
-    try:
-        campaign = read_campaign(folder / "campaign.yaml")
-    except FddbenchError as error:
-        raise ResultsError(f"the campaign frozen in {folder} cannot be read any more:\n{error}\n{_REMEDY}") from error
-    if campaign.sha256 != campaign_sha256:
-        raise ResultsError(f"the campaign or a design frozen in {folder} is not the one of its results. {_REMEDY}")
-    return campaign
-
-
-_REMEDY = "Run the campaign again on this folder: it puts the files back."
+        return _flyer(folder, fingerprint, backend)
 
 
 @lru_cache(maxsize=2)
-def _flyer(folder: str, campaign_sha256: str, backend: str) -> Flyer:
-    flyer = Flyer(assemble(frozen(Path(folder), campaign_sha256)), backend)
+def _flyer(folder: str, fingerprint: str, backend: str) -> Flyer:
+    flyer = Flyer(assemble(frozen_to_fly(Path(folder), fingerprint)), backend)
     flyer.prepare()
     return flyer
 
 
-def fly_and_write(folder: str, campaign_sha256: str, backend: str, case_spans: Spans) -> Shard:
+def fly_and_write(folder: str, fingerprint: str, backend: str, case_spans: Spans) -> Shard:
     """Fly the cases and write their shard into the folder of results; everything crosses as plain data."""
     cases = expand(case_spans)
-    rows, events = rows_and_events(flyer_of(folder, campaign_sha256, backend), cases)
+    rows, events = rows_and_events(flyer_of(folder, fingerprint, backend), cases)
     name = f"{cases[0]:08d}-{cases[-1]:08d}-{len(cases)}.parquet"
     path = Path(folder)
-    events_sha256 = write_table(path / "events" / name, events) if len(events) else None
+    events_sha256 = write_table(path / "events" / name, events, fingerprint=fingerprint) if len(events) else None
     return Shard(
         cases=spans(cases),
         rows=f"rows/{name}",
-        rows_sha256=write_table(path / "rows" / name, rows),
+        rows_sha256=write_table(path / "rows" / name, rows, fingerprint=fingerprint),
         events=f"events/{name}" if len(events) else None,
         events_sha256=events_sha256,
         statuses=dict(
             sorted((entry["values"], entry["counts"]) for entry in rows["status"].value_counts().to_pylist())
         ),
+        fingerprint=fingerprint,
     )
 
 

@@ -1,0 +1,61 @@
+"""What a run does with a folder that it goes on with: what is damaged is no longer listed, so that it is flown again."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from fddbench.errors import ResultsError
+from fddbench.results import manifest
+from fddbench.results.manifest import Shard
+from fddbench.results.shards import file_sha256
+
+__all__ = ["mend"]
+
+
+def mend(folder: Path, *, fingerprint: str, n_cases: int) -> tuple[tuple[Shard, ...], tuple[str, ...]]:
+    """Keep what is sound on the list of a folder: the shards of it, and in words what was lost.
+
+    No table is deleted; the flights of one that is not listed any more are flown again, to the same rows.
+
+    Parameters
+    ----------
+    folder : Path
+        Folder of results, claimed by the run.
+    fingerprint : str
+        What every shard must carry.
+    n_cases : int
+        Length of the case table.
+
+    Raises
+    ------
+    ResultsError
+        There is no list, or it has sound shards of another campaign or program.
+    """
+    found = manifest.survey(folder)
+    if any(shard.fingerprint != fingerprint for shard in found.shards):
+        raise ResultsError(
+            f"{folder} lists shards of another campaign or program; name another folder with --out, or replace the "
+            "results with --fresh"
+        )
+    lost, kept = list(found.wrong), list[Shard]()
+    for shard in found.shards:
+        reason = _wrong(folder, shard, n_cases)
+        if reason:
+            lost.append(reason)
+        else:
+            kept.append(shard)
+    manifest.keep(folder, kept)
+    return tuple(kept), tuple(lost)
+
+
+def _wrong(folder: Path, shard: Shard, n_cases: int) -> str:
+    """What is wrong with a shard, "" for nothing."""
+    files: Sequence[tuple[str | None, str | None]] = (
+        (shard.rows, shard.rows_sha256),
+        (shard.events, shard.events_sha256),
+    )
+    for name, sha256 in files:
+        if name is not None and file_sha256(folder / name) != sha256:
+            return f"{name} is damaged or gone"
+    if not all(0 <= first < first + count <= n_cases for first, count in shard.cases):
+        return f"{shard.rows} holds flights beyond the case table"
+    return ""

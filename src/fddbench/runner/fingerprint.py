@@ -1,0 +1,115 @@
+"""The fingerprint of a campaign and of the program that flies it here, and the campaign that is frozen in a folder."""
+
+from collections.abc import Iterator
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from fddbench import sources
+from fddbench.blocks import llvm
+from fddbench.campaign.load import read_campaign
+from fddbench.campaign.meaning import Campaign
+from fddbench.campaign.plan import Plan
+from fddbench.errors import FddbenchError, OtherProgramWarning, ResultsError, warn
+from fddbench.results.fingerprint import Fingerprint, differences
+from fddbench.results.folder import changed_files, provenance_of
+from fddbench.results.provenance import collect, version_of
+from fddbench.results.schema import SCHEMA_VERSION
+
+__all__ = ["fingerprint_of", "frozen", "frozen_to_fly", "other_program", "provenance_for"]
+
+_REMEDY = "Run the campaign again on this folder: it puts the files back."
+
+
+def fingerprint_of(campaign: Campaign) -> Fingerprint:
+    """What decides the rows of a campaign that is flown by this process."""
+    files = campaign.files()
+    behind = sources.foreign(_members(campaign), files)
+    # the compiler at hand, used or not: which of the two back ends flies is no part of any result
+    bits = {"numpy": version_of("numpy"), "llvmlite": version_of("llvmlite") if llvm.available() else "none"}
+    return Fingerprint(
+        campaign_sha256=campaign.sha256,
+        files={name: sha256(text).hexdigest() for name, text in sorted(files.items()) if name != "campaign.yaml"},
+        schema_version=SCHEMA_VERSION,
+        fddbench=version_of("fddbench"),
+        libraries=behind.versions | bits,
+        source={**sources.own(), **behind.source},
+    )
+
+
+def _members(campaign: Campaign) -> Iterator[Any]:
+    """Everything in a campaign whose class may be somebody else's."""
+    yield from (campaign.bench, campaign.plant, *campaign.chosen.values())
+    yield from (fault for scenario in campaign.scenarios for fault in scenario.faults)
+    yield from (design.kind.member for design in campaign.designs)
+
+
+def provenance_for(plan: Plan, fingerprint: Fingerprint) -> dict[str, object]:
+    """Provenance of a run of this case table that begins now."""
+    campaign = plan.campaign
+    return collect(
+        fingerprint,
+        campaign=campaign.name,
+        designs_sha256={design.name: design.sha256 for design in campaign.designs},
+        seed=campaign.seed,
+        flights={planned.name: planned.n_runs for planned in plan.scenarios},
+        text=campaign.text.encode(),
+    )
+
+
+def frozen(folder: Path) -> Campaign:
+    """Campaign of a folder of results, to be looked at or flown again for a picture.
+
+    Warns
+    -----
+    OtherProgramWarning
+        This is not the program that flew the results; their flights may differ from what is seen now.
+
+    Raises
+    ------
+    ResultsError
+        The frozen campaign, a design or a plug-in was changed or is gone, or cannot be read by this program.
+    """
+    campaign = _read(folder)
+    other = other_program(folder, campaign)
+    if other:
+        warn(f"{folder} was flown by another program ({other}); flights may differ from its rows", OtherProgramWarning)
+    return campaign
+
+
+def other_program(folder: Path, campaign: Campaign) -> str:
+    """What differs between this program and the one that flew a folder of results, in words; "" for nothing."""
+    here, there = fingerprint_of(campaign), Fingerprint.of(provenance_of(folder))
+    if here.sha256 == there.sha256:
+        return ""
+    return "; ".join(differences(there, here))
+
+
+def frozen_to_fly(folder: Path, fingerprint: str) -> Campaign:
+    """Campaign of a folder of results, for a worker that writes rows of this fingerprint.
+
+    Raises
+    ------
+    ResultsError
+        The worker is another program than the one that gives out the work, or the folder was changed meanwhile.
+    """
+    campaign = _read(folder)
+    if fingerprint_of(campaign).sha256 != fingerprint:
+        other = other_program(folder, campaign) or "the folder was claimed anew meanwhile"
+        raise ResultsError(
+            f"a worker of the run in {folder} is another program than its parent ({other}); run it again"
+        )
+    return campaign
+
+
+def _read(folder: Path) -> Campaign:
+    """Campaign of the frozen files, once they are those that were written; only then is a plug-in among them run."""
+    provenance, changed = provenance_of(folder), changed_files(folder)
+    if changed:
+        raise ResultsError(f"{folder / changed[0]} is not the file of these results, or is gone. {_REMEDY}")
+    try:
+        return read_campaign(folder / "campaign.yaml")
+    except FddbenchError as error:
+        written, here = provenance["fddbench"], version_of("fddbench")
+        cure = _REMEDY if written == here else f"Read it with fddbench {written}, this is {here}."
+        raise ResultsError(f"the campaign frozen in {folder} cannot be read any more:\n{error}\n{cure}") from error
