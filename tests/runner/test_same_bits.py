@@ -56,7 +56,8 @@ def test_jobs_and_chunks_change_no_bit(everything, reference, tmp_path, options)
 def test_the_fixture_has_what_it_claims(reference):
     rows, events = reference
     assert {"ok", "infeasible"} <= set(rows["status"])
-    assert rows["detected"].any()
+    assert {"right", "wrong_site", "missed"} <= set(rows["outcome"].dropna())
+    assert rows["estimate_rms"].notna().any()
     assert len(events) == 2 * 2 * 8
 
 

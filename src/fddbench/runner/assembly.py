@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -107,7 +106,7 @@ class Assembly:
     detectors: Mapping[str, Adapted]
     scoring: Scoring
 
-    @cached_property
+    @property
     def scoring_of(self) -> Mapping[str, Scoring]:
         """Score of each detector: by its sites or its alarm, with its estimate if it has one."""
         return {
