@@ -102,7 +102,10 @@ def test_a_failing_detector_of_ones_own_exits_with_one(tiny, capsys):
     design = yaml.safe_load((gallery.folder("detectors") / "cusum_example.yaml").read_text())
     (tiny / "detectors" / "mine.yaml").write_text(yaml.safe_dump({**design, "kind": "mine.py:Cusum"}))
     assert main(["run", "tiny.yaml", "--quiet", "--jobs", "1", "--set", "detectors=[mine, voting_monitor]"]) == 1
-    assert "error: mine, 2 flights (case 0, 1): ZeroDivisionError: division by zero" in capsys.readouterr().out
+    assert (
+        "error: mine, 2 flights (case healthy/0/0/0, jam_b/0/0/0): ZeroDivisionError: division by zero"
+        in capsys.readouterr().out
+    )
     assert main(["report", "results/tiny"]) == 0
 
 

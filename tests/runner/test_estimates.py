@@ -137,15 +137,17 @@ def test_declarations_and_estimates_of_ones_own_are_scored_like_a_detectors(tmp_
     n = 401
     declared, size = np.zeros((n, 3, 1)), np.zeros((n, 3, 1))
     declared[100:, 0], size[100:, 0] = 1.0, 2.25
-    (row,) = flights.score(campaign, [0], declared, estimate=size, name="oracle").to_dict("records")
+    (row,) = flights.score(campaign, ["several/0/0/0"], declared, estimate=size, name="oracle").to_dict("records")
     assert (row["outcome"], row["detection_time_s"], row["detector"]) == ("right", 0.0, "oracle")
     assert (row["estimate_bias"], row["estimate_rms"]) == (pytest.approx(0.25, abs=1e-9), pytest.approx(0.25, abs=1e-9))
     voted = np.zeros((n, 1))
-    (row,) = flights.score(campaign, [0], declared, estimate=voted, estimates="r_voted_deg_s").to_dict("records")
+    (row,) = flights.score(campaign, ["several/0/0/0"], declared, estimate=voted, estimates="r_voted_deg_s").to_dict(
+        "records"
+    )
     assert row["estimate_rms"] < 1.0
-    (row,) = flights.score(campaign, [0], None, alarm=declared[:, 0], watches=["r2"]).to_dict("records")
+    (row,) = flights.score(campaign, ["several/0/0/0"], None, alarm=declared[:, 0], watches=["r2"]).to_dict("records")
     assert (row["outcome"], row["isolated"], row["watched"]) == ("right", None, False)
     with pytest.raises(FddbenchError, match="does not say what is true of it"):
-        flights.score(campaign, [0], declared, estimate=voted, estimates="r_vote_deg_s")
+        flights.score(campaign, ["several/0/0/0"], declared, estimate=voted, estimates="r_vote_deg_s")
     with pytest.raises(FddbenchError, match="give declared, alarm, or both"):
-        flights.score(campaign, [0], None)
+        flights.score(campaign, ["several/0/0/0"], None)
