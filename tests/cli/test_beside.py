@@ -84,7 +84,7 @@ def test_every_choice_may_come_from_a_file(beside, capsys):
     assert fly("mine.yaml") == 0
     out = beside.parent / "out"
     own = {"plant.py", "constants.py", "mean.py", "parts.py", "sigma.txt", "sawtooth.py"}
-    assert kept(out) == own | {"campaign.yaml", "detectors/voting_monitor.yaml"}
+    assert kept(out) == own | {"detectors/voting_monitor.yaml"}
     shutil.rmtree(beside)  # nothing beside the results is needed any more
     healthy, teeth = replay(out)
     assert healthy.time_s[-1] == 3.0
@@ -207,7 +207,7 @@ def test_weights_and_helpers_of_a_detector_travel(net, capsys):
     assert fly("net.yaml") == 0
     out = net.parent.parent / "out"
     beside = {f"detectors/{name}" for name in ("net.yaml", "net.py", "helper.py", "weights.npy")}
-    assert kept(out) == beside | {"campaign.yaml"}
+    assert kept(out) == beside
     rows = load(out)
     for name, content in (("weights.npy", None), ("helper.py", "GAIN = 2.0\n")):
         before = (net / name).read_bytes()

@@ -98,8 +98,9 @@ def _tables(folder: Path, which: str, schema: pa.Schema, columns: Sequence[str] 
                 f"{folder / shard.rows} was flown by a campaign or program that the folder does not list; fly the campaign "
                 "anew with --fresh"
             )
-        name, sha256 = getattr(shard, which), getattr(shard, f"{which}_sha256")
-        if name is not None:
+        files = {"rows": (shard.rows, shard.rows_sha256), "events": (shard.events, shard.events_sha256)}
+        name, sha256 = files[which]
+        if name is not None and sha256 is not None:
             options = {"schema": schema, "fingerprint": shard.fingerprint, "columns": columns}
             found.append(read_table(folder / name, sha256, **options))
     return found
