@@ -214,7 +214,7 @@ def test_weights_and_helpers_of_a_detector_travel(net, capsys):
         np.save(net / name, np.array([2.0])) if content is None else (net / name).write_text(content)
         assert fly("net.yaml") == 2
         message = capsys.readouterr().err
-        assert ("detectors/weights.npy: other bytes" if content is None else "+GAIN = 2.0") in message
+        assert ("the file detectors/weights.npy is not the same" if content is None else "+GAIN = 2.0") in message
         assert fly("net.yaml", "--out", f"../{name}") == 0
         other = load(f"../{name}")  # twice as sensitive: what was read again is what flew
         np.testing.assert_allclose(other["margin_healthy"].astype(float), 2.0 * rows["margin_healthy"].astype(float))
