@@ -168,12 +168,12 @@ def test_a_worker_of_another_program_writes_nothing(campaign, out, monkeypatch):
 
 
 def test_replay_by_another_program_says_so(out, monkeypatch):
-    assert signals(out, "jam", [6]).cases == (6,)
+    assert signals(out, "jam", ["0/0/1"]).cases == ("jam/0/0/1",)
     other_source(monkeypatch)
     with pytest.warns(
         OtherProgramWarning, match=r"was flown by another program \(other source code of fddbench/metrics\)"
     ):
-        assert signals(out, "jam", [6]).cases == (6,)
+        assert signals(out, "jam", ["0/0/1"]).cases == ("jam/0/0/1",)
     with pytest.warns(OtherProgramWarning):
         page = report(out).read_text()
     assert "signals flown again by another program" in page

@@ -120,7 +120,7 @@ def _tables(folder: Path, which: str, schema: pa.Schema, columns: Sequence[str] 
 def _sorted(tables: list[pa.Table], folder: Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
     """Sorted by scenario, point, level, run, detector and event; in Arrow, which copies once."""
     try:
-        table = pa.concat_tables([each.replace_schema_metadata(None) for each in tables], promote_options="default")
+        table = pa.concat_tables([each.replace_schema_metadata(None) for each in tables])
     except pa.ArrowException as error:
         raise ResultsError(
             f"the shards of {folder} have different columns; fly the campaign anew with --fresh"

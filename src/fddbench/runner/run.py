@@ -88,12 +88,10 @@ def run_campaign(
         As read by `fddbench.campaign.load.read_campaign`.
     folder : Path
         Folder of results, laid out as ARCHITECTURE.md says.
-    jobs : int
-        Worker processes; no part of any result.
+    jobs, chunk : int
+        Worker processes, and cases side by side; no part of any result.
     fresh : bool
         Replace what the folder holds.
-    chunk : int
-        Cases side by side; no part of any result.
     backend : {"auto", "llvm", "numpy"}
         ``auto`` compiles where llvmlite is installed; no part of any result.
     progress, notice : callable
