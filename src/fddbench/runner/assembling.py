@@ -1,13 +1,15 @@
 """From a campaign to what flies it."""
 
+from dataclasses import replace
+
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.plan import Plan, plan
-from fddbench.designs.adapted import Adapted
 from fddbench.designs.building import build_detectors
 from fddbench.errors import FddbenchError, place_of, reason_of
 from fddbench.interfaces import Loop, Options
 from fddbench.metrics.scoring import Scoring
 from fddbench.runner.assembly import Assembly, has_events
+from fddbench.runner.firsts import first_samples
 from fddbench.runner.soundness import require_sound
 
 __all__ = ["assemble", "loop_of"]
@@ -49,13 +51,9 @@ def assemble(campaign: Campaign) -> Assembly:
     planned = plan(campaign)
     loop = loop_of(planned)
     n_events = max((len(s.faults) for s in planned.scenarios if has_events(s)), default=0)
-    found = build_detectors(campaign.designs, loop.bus)
-    assembly = Assembly(
-        plan=planned,
-        loop=loop,
-        detectors={name: Adapted(detector, loop.bus) for name, detector in found.items()},
-        scoring=Scoring(len(loop.bus.sites), n_events),
-    )
+    assembly = Assembly(plan=planned, loop=loop, detectors={}, scoring=Scoring(len(loop.bus.sites), n_events))
+    found = build_detectors(campaign.designs, loop.bus, lambda: first_samples(assembly))
+    assembly = replace(assembly, detectors=found)
     if any(not type(own).__module__.startswith("fddbench.") for own in (campaign.bench, campaign.plant, loop)):
         require_sound(assembly)
     return assembly

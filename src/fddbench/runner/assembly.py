@@ -130,6 +130,11 @@ class Assembly:
                 reasons[i] = f"drawn {limit.name} {drawn[i]:g} lies outside {limit.low:g} to {limit.high:g}"
         return reasons
 
+    def ends(self, batch: Batch) -> Floats:
+        """Last sample of each flight of a batch, (n_cases,)."""
+        last: Floats = self.scoring.constants.unpack(batch.score_constants).last
+        return last
+
     def nothing_scored(self, batch: Batch) -> Floats:
         """Score of a detector that saw nothing of a batch, (n_score, n_cases)."""
         n_cases, states = len(batch.cases), self.scoring.states
