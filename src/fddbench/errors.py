@@ -5,10 +5,11 @@ Every message names the place, what was received, what is allowed and what to do
 """
 
 import dis
-import traceback
 from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
+from pathlib import Path
+from traceback import walk_tb
 
 __all__ = [
     "CampaignError",
@@ -18,6 +19,7 @@ __all__ = [
     "ResultsError",
     "UnknownNameError",
     "did_you_mean",
+    "lines_in",
     "place_of",
     "raise_interrupt",
     "reason_of",
@@ -52,10 +54,18 @@ def reason_of(error: BaseException) -> str:
     return whole if len(whole) <= _LONGEST else whole[: _LONGEST - 3] + "..."
 
 
-def place_of(error: BaseException) -> str:
-    """Innermost line of foreign code that an exception passed, in brackets; "" where it passed none."""
-    frames = [f for f in traceback.extract_tb(error.__traceback__) if "/fddbench/" not in f.filename.replace("\\", "/")]
-    return f" ({frames[-1].filename}:{frames[-1].lineno})" if frames else ""
+def place_of(error: BaseException, folders: Iterable[Path], otherwise: str = "") -> str:
+    """Line that raised, the innermost in a file of one of these folders, in brackets; the other place where there is none."""
+    lines = lines_in(error, folders)
+    place = f"{lines[-1][0]}:{lines[-1][1]}" if lines else otherwise
+    return f" ({place})" if place else ""
+
+
+def lines_in(error: BaseException, folders: Iterable[Path]) -> list[tuple[str, int]]:
+    """Files of these folders that an exception passed, and in which line, outermost first."""
+    known = {folder.resolve() for folder in folders}
+    passed = [(frame.f_code.co_filename, line) for frame, line in walk_tb(error.__traceback__)]
+    return [(file, line) for file, line in passed if Path(file).resolve().parent in known]
 
 
 def raise_interrupt(error: BaseException) -> None:

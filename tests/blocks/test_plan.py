@@ -9,7 +9,7 @@ import pytest
 from fddbench.blocks import functions
 from fddbench.blocks.draws import with_draws
 from fddbench.blocks.lower import Spec, lower
-from fddbench.blocks.operations import gather, locate
+from fddbench.blocks.operations import gather, locate, rarely
 from fddbench.blocks.plan import INSTRUCTIONS, MEMORY, NOTHING, Instruction, Plan
 from fddbench.blocks.program import trace
 from fddbench.blocks.repeat import repeat
@@ -26,6 +26,7 @@ def _step(state: Any, constants: Any, normals: Any, sample: Any) -> dict[str, An
     looked = gather(Table.of([1.0, 2.0, 3.0]), place) + gather(Table.of([4.0, 5.0, 6.0]), place)
     moved = repeat(lambda x: x * share + oldest, state[:2], count=3) + looked
     flags = (moved[0] > 1.0) & (constants[1] > 0.0)
+    moved = moved + np.where(rarely(sample > 99.0), functions.sin(functions.sin(state[1])), 0.0)
     return {"state": np.concatenate([moved, rows]), "finished": flags[np.newaxis], "y": normals[:2]}
 
 
@@ -48,6 +49,10 @@ def test_registers_are_written_once_and_before_they_are_read(plan: Plan) -> None
     prologue, sample = _defined(plan.prologue, set()), _defined(plan.sample, set())
     assert prologue & sample <= {NOTHING}
     assert set(plan.finished) <= sample
+    ops = [line.op for line in plan.sample]
+    inside = {line.result for line in plan.sample[ops.index("skip") : ops.index("resume")]}
+    for line in plan.sample[ops.index("resume") :]:
+        assert line.op == "join" or not inside & set(line.arguments) - {NOTHING}, line
     for function in plan.repeats:
         _defined(function.each, _defined(function.before, set()))
 

@@ -8,7 +8,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from fddbench.blocks import functions
-from fddbench.blocks.operations import OPERATIONS, exponent, fraction, gather, locate, pick, power_of_two
+from fddbench.blocks.operations import OPERATIONS, exponent, fraction, gather, locate, pick, power_of_two, rarely
 from fddbench.blocks.program import trace
 from fddbench.blocks.repeat import repeat
 from fddbench.blocks.table import Table
@@ -43,6 +43,7 @@ PRIMITIVES: dict[str, Callable[[Any, Any], Any]] = {
     "exponent": lambda a, _: exponent(a),
     "power_of_two": lambda a, _: power_of_two(np.minimum(np.maximum(np.rint(a), -1022.0), 1023.0)),
     "pick": lambda a, b: pick(a, b, a * b, b - 1.0, b + 2.0),
+    "rarely": lambda a, b: np.where(rarely(a < b), functions.sin(functions.cos(a)), b),
     "locate": lambda a, b: locate(FEW, a) + locate(MANY, b),
     "gather": lambda a, b: gather(FEW, a) * gather(MANY, b),
 }
@@ -101,7 +102,9 @@ def test_functions(where: dict[str, Any], once: Any, same: Any) -> None:
 
 
 NUMBERS = st.sampled_from([0.5, 2.0, -3.25, 1.0, 0.1, -1.0, 7.0])
-BINARY = st.sampled_from(["add", "sub", "mul", "div", "min", "max", "select", "number", "locate", "gather", "repeat"])
+BINARY = st.sampled_from(
+    ["add", "sub", "mul", "div", "min", "max", "select", "number", "locate", "gather", "repeat", "rarely"]
+)
 UNARY = st.sampled_from(["neg", "abs", "sqrt", "floor", "rint"])
 NAMED = st.sampled_from(["sin", "cos", "exp", "log"])
 INSTRUCTION = st.one_of(

@@ -11,7 +11,7 @@ from fddbench.blocks import functions
 from fddbench.blocks.interpreter import Interpreter
 from fddbench.blocks.linear import affine, column, largest, product, total
 from fddbench.blocks.program import trace
-from fddbench.blocks.rewrite import expand
+from fddbench.blocks.rewrite import canonical, expand
 from fddbench.blocks.trouble import TraceError
 
 
@@ -132,6 +132,8 @@ def test_identity_does_not_depend_on_the_order_of_tracing() -> None:
     one, other = (trace(lambda x, swap=swap: _two_ways(x, swap), x=3) for swap in (False, True))
     assert one.nodes != other.nodes
     assert one.hash == other.hash
+    assert canonical(one) == canonical(other)
+    assert canonical(one).hash == one.hash
 
 
 @pytest.mark.parametrize(

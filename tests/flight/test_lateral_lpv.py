@@ -84,9 +84,9 @@ def test_literature_printed_numbers(tables, printed):
 
 def test_literature_checksums_of_the_printed_tables():
     """Sums over all entries of each table, computed from the paper: no entry can be mistyped alone."""
-    sums = [float(np.abs(MODEL.A[j]).sum()) for j in range(5)]
+    sums = [float(np.abs(MODEL.tables["A"][j]).sum()) for j in range(5)]
     assert sums == pytest.approx([219.6301, 1.9034, 0.1049, 16.2968, 21.868], abs=1e-9)
-    sums = [float(np.abs(MODEL.B[j]).sum()) for j in range(5)]
+    sums = [float(np.abs(MODEL.tables["B"][j]).sum()) for j in range(5)]
     assert sums == pytest.approx([0.2354, 0.0169, 0.000561, 0.0081, 0.0369], abs=1e-9)
 
 
@@ -127,8 +127,8 @@ def test_trim_speeds_are_the_components_of_the_airspeed(rho, v):
 
 @given(rhos)
 def test_affine_in_rho(rho):
-    expected_A = MODEL.A[0, :, :, 0] + sum(rho[j, 0] * MODEL.A[j + 1, :, :, 0] for j in range(4))
-    expected_B = MODEL.B[0, :, :, 0] + sum(rho[j, 0] * MODEL.B[j + 1, :, :, 0] for j in range(4))
+    expected_A = MODEL.tables["A"][0, :, :, 0] + sum(rho[j, 0] * MODEL.tables["A"][j + 1, :, :, 0] for j in range(4))
+    expected_B = MODEL.tables["B"][0, :, :, 0] + sum(rho[j, 0] * MODEL.tables["B"][j + 1, :, :, 0] for j in range(4))
     A, B = at(rho)
     np.testing.assert_allclose(A, expected_A, rtol=1e-14, atol=1e-14)
     np.testing.assert_allclose(B, expected_B, rtol=1e-14, atol=1e-17)

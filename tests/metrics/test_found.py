@@ -9,7 +9,7 @@ from tests.metrics.sequences import SEQUENCES
 from tests.metrics.test_sequences import flight_of
 
 from fddbench.blocks.kernel import Addresses, build
-from fddbench.blocks.layout import Layout
+from fddbench.blocks.layout import ROW, Layout, Row, Rows, record
 from fddbench.blocks.program import trace
 from fddbench.metrics.found import (
     BEFORE,
@@ -22,28 +22,60 @@ from fddbench.metrics.found import (
 )
 
 N_FAULTS = 3
-CONSTANTS = Layout(
-    faulty_from=3,
-    last_scored=0,
-    **{f"{name}_{j}": rows for j in range(N_FAULTS) for name, rows in (("own", 3), ("first", 0), ("last", 0))},
-)
-STATES = Layout(previous=3, alarm_before=0, by_sites=N_FAULTS, by_alarm=N_FAULTS, sample=0)
+
+
+@record
+class OfFault:
+    """Its sites (1 or 0), first and last faulty sample."""
+
+    own: Rows
+    first: Row
+    last: Row
+
+
+@record
+class Told:
+    """Sample from which each site is faulty, last scored sample, and the faults."""
+
+    faulty_from: Rows
+    last_scored: Row
+    faults: tuple[OfFault, ...]
+
+
+@record
+class Seen:
+    """What was said at the sample before, the numbers of every fault by both rules, and the sample."""
+
+    previous: Rows
+    alarm_before: Row
+    by_sites: Rows
+    by_alarm: Rows
+    sample: Row
+
+
+CONSTANTS = Layout(Told(faulty_from=3, last_scored=ROW, faults=(OfFault(own=3, first=ROW, last=ROW),) * N_FAULTS))
+STATES = Layout(Seen(previous=3, alarm_before=ROW, by_sites=N_FAULTS, by_alarm=N_FAULTS, sample=ROW))
+
+
+def _fault(fault):
+    lasts = [last for *_, last in fault]
+    own = {site for site, *_ in fault}
+    return OfFault(
+        own=np.array([[float(site in own)] for site in SITES]),
+        first=float(independent.onset(fault)) if fault else NEVER,
+        last=NEVER if not lasts or None in lasts else float(max(lasts)),
+    )
 
 
 def _constants(flight):
     """Rows of one flight, (n_rows,)."""
-    named = {
-        "faulty_from": np.array(faulty_from_of(flight)),
-        "last_scored": np.array(float(flight.last)),
-    }
-    for j in range(N_FAULTS):
-        fault = flight.faults[j] if j < len(flight.faults) else ()
-        lasts = [last for *_, last in fault]
-        own = {site for site, *_ in fault}
-        named[f"own_{j}"] = np.array([float(site in own) for site in SITES])
-        named[f"first_{j}"] = np.array(float(independent.onset(fault)) if fault else NEVER)
-        named[f"last_{j}"] = np.array(NEVER if not lasts or None in lasts else float(max(lasts)))
-    return CONSTANTS.pack(**named)
+    faults = [*flight.faults, *[()] * (N_FAULTS - len(flight.faults))]
+    told = Told(
+        faulty_from=np.array(faulty_from_of(flight), dtype=float)[:, np.newaxis],
+        last_scored=float(flight.last),
+        faults=tuple(_fault(fault) for fault in faults),
+    )
+    return CONSTANTS.pack(told)[:, 0]
 
 
 def _step(state, constants, declared, alarm):
@@ -53,29 +85,23 @@ def _step(state, constants, declared, alarm):
     wrong, news = outside(declared, c.faulty_from, x.sample), changed(declared, x.previous)
     active = x.sample <= c.last_scored
     by_sites, by_alarm = [], []
-    for j in range(N_FAULTS):
-        of_fault = {
-            "first": getattr(c, f"first_{j}"),
-            "last": getattr(c, f"last_{j}"),
-            "sample": x.sample,
-            "active": active,
-        }
-        own = getattr(c, f"own_{j}")
-        by_sites.append(found_by_sites(x.by_sites[j], own, declared, wrong=wrong, news=news, **of_fault))
+    for j, fault in enumerate(c.faults):
+        of_fault = {"first": fault.first, "last": fault.last, "sample": x.sample, "active": active}
+        by_sites.append(found_by_sites(x.by_sites[j], fault.own, declared, wrong=wrong, news=news, **of_fault))
         by_alarm.append(found_by_alarm(x.by_alarm[j], alarm, x.alarm_before, **of_fault))
     return STATES.pack(
-        previous=declared,
-        alarm_before=alarm,
-        by_sites=np.stack(by_sites),
-        by_alarm=np.stack(by_alarm),
-        sample=x.sample + 1.0,
+        Seen(
+            previous=declared,
+            alarm_before=alarm,
+            by_sites=np.stack(by_sites),
+            by_alarm=np.stack(by_alarm),
+            sample=x.sample + 1.0,
+        )
     )
 
 
 def _start(n_cases):
-    x = STATES.unpack(state := STATES.zeros(n_cases))
-    x.by_sites[...] = x.by_alarm[...] = NEVER
-    return state
+    return STATES.pack(Seen(previous=0.0, alarm_before=0.0, by_sites=NEVER, by_alarm=NEVER, sample=0.0), n_cases)
 
 
 def _recording(flight, n):
@@ -93,8 +119,7 @@ def _numbers(flight, state):
     names = {NEVER: None, BEFORE: independent.BEFORE}
     rows = x.by_sites if flight.isolates else x.by_alarm
     found = [
-        float(in_flight(rows[j], first=getattr(c, f"first_{j}"), last_scored=c.last_scored))
-        for j in range(len(flight.faults))
+        float(in_flight(rows[j], first=c.faults[j].first, last_scored=c.last_scored)) for j in range(len(flight.faults))
     ]
     return [names.get(number, number) for number in found]
 

@@ -12,7 +12,7 @@ from fddbench.blocks.rewrite import expand
 __all__ = ["Cost", "cost"]
 
 _DOUBLE = 8
-_NO_OPERATION = {"repeat", "row"}
+_NO_OPERATION = {"rarely", "repeat", "row"}
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,6 +9,7 @@ from fddbench.blocks import draws, llvm
 from fddbench.blocks.flown import Addresses, Floats, Flown, Integers, Streams, by_output
 from fddbench.blocks.lower import Spec, lower
 from fddbench.blocks.program import Program
+from fddbench.blocks.rewrite import canonical
 from fddbench.blocks.targets.llvm import frame
 from fddbench.errors import FddbenchError
 
@@ -32,7 +33,7 @@ class Compiled:
 
     def text(self) -> str:
         """LLVM module of the kernel."""
-        spec = Spec(program=draws.with_draws(self._program), streams=self._streams, recorded=self._recorded)
+        spec = Spec(program=draws.with_draws(canonical(self._program)), streams=self._streams, recorded=self._recorded)
         return frame.write(lower(spec), self.lanes, rounds=self._machine.rounds)
 
     def fly(

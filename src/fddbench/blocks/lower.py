@@ -1,5 +1,6 @@
 """From a program to a plan: where everything lives, what is computed once, and in which order."""
 
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
 from fddbench.blocks import rings
@@ -7,6 +8,7 @@ from fddbench.blocks.operations import OPERATIONS
 from fddbench.blocks.philox import PER_DRAW
 from fddbench.blocks.plan import Plan
 from fddbench.blocks.program import Program
+from fddbench.blocks.rare import Region, region
 from fddbench.blocks.rewrite import depends_only_on
 from fddbench.blocks.schedule import latency, longest_first
 from fddbench.blocks.stretch import Shared, Writer
@@ -71,11 +73,10 @@ class _Kernel(Writer):
         used.update(node for rows in self.program.outputs.values() for node in rows)
         known = [j for j, node in enumerate(nodes) if self._once[j] and node.op not in {"literal", "flag"}]
         for j in known:
-            register = self.value(j)
+            self.value(j)
             if j in used:
                 self._kept[j], self.slots = self.slots, self.slots + 1
-                number = self.let("number", register) if self._boolean(j) else register
-                self.do("store", number, value=self._kept[j])
+                self.do("store", self._as_number(j), value=self._kept[j])
         self.forget()
 
     def sample(self) -> tuple[int, ...]:
@@ -84,10 +85,9 @@ class _Kernel(Writer):
         ringed = {row for ring in self._writes for row in range(ring.first, ring.first + ring.depth)}
         moving = [row for row, node in enumerate(state) if row not in ringed and not self._still(row, node)]
         finished = self.program.outputs.get("finished", ())
-        needed = [state[row] for row in moving]
-        needed += [node for ring in self._writes for node in (ring.index, ring.value)]
-        for j in self._order([*needed, *finished, *self.recorded]):
-            self.value(j)
+        wanted = [state[row] for row in moving]
+        wanted += [node for ring in self._writes for node in (ring.index, ring.value)]
+        self._compute([*wanted, *finished, *self.recorded])
         for row in moving:
             self.do("store", self.value(state[row]), value=row)
         for ring in self._writes:
@@ -99,8 +99,7 @@ class _Kernel(Writer):
     def written(self, j: int) -> int:
         """Register of a node, written now: what the prologue has kept is loaded."""
         if j in self._kept:
-            register = self.let("load", value=self._kept[j])
-            return self.let("ne", register, self.leaf("literal", 0.0)) if self._boolean(j) else register
+            return self._from_number(j, self.let("load", value=self._kept[j]))
         if j in self._reads:
             ring = self._reads[j]
             return self.let("ring_load", self.value(ring.index), value=(ring.first, ring.depth))
@@ -121,21 +120,69 @@ class _Kernel(Writer):
         """Whether a state row stays as it is."""
         return bool(self.program.nodes[node].value == ("state", row))
 
-    def _order(self, needed: list[int]) -> list[int]:
-        """Nodes that a sample needs, in the order in which they are written."""
-        seen = set[int]()
-        while needed:
-            node = needed.pop()
+    def _compute(self, wanted: list[int]) -> None:
+        """Write all that some nodes need, what is seldom needed behind a branch."""
+        needed = self._needed(wanted)
+        seldom = region(self.program, needed, self._kept, wanted)
+        if seldom is not None:
+            around = [
+                *seldom.conditions,
+                *(a for j in seldom.inside for a in self._arguments(j) if a not in seldom.inside),
+            ]
+            self._write(self._needed(around))
+            self._branch(seldom, needed)
+        self._write({j for j in needed if j not in self.registers and (seldom is None or j not in seldom.inside)})
+
+    def _branch(self, seldom: Region, needed: set[int]) -> None:
+        """Write a region and the branch around it."""
+        for draw in sorted(self._draws(seldom.inside) & self._draws(needed - seldom.inside)):
+            self.leaf("draw", self.spec.streams[draw])
+        mask = self.value(seldom.conditions[0])
+        for condition in seldom.conditions[1:]:
+            mask = self.let("or", mask, self.value(condition))
+        before = self.known()
+        self.do("skip", mask)
+        self._write(seldom.inside)
+        inside = [self._as_number(node) for node in seldom.results]
+        self.do("resume")
+        self.recall(before)
+        joined = [self.let("join", register) for register in inside]
+        for node, register in zip(seldom.results, joined, strict=True):
+            self.registers[node] = self._from_number(node, register)
+
+    def _draws(self, nodes: Collection[int]) -> set[int]:
+        """Draws that some nodes take numbers of."""
+        leaves = (self.program.nodes[j] for j in nodes if self.program.nodes[j].op == "input")
+        return {row // PER_DRAW for name, row in (leaf.value for leaf in leaves) if name == "uniforms"}
+
+    def _needed(self, wanted: Iterable[int]) -> set[int]:
+        """Nodes that have to be computed in a sample for some of them."""
+        left, seen = list(wanted), set[int]()
+        while left:
+            node = left.pop()
             if node not in seen:
                 seen.add(node)
-                needed.extend(self._arguments(node))
-        return longest_first(seen, self._arguments, lambda j: latency(self.program, j, loaded=j in self._kept))
+                left.extend(self._arguments(node))
+        return seen
+
+    def _write(self, nodes: Collection[int]) -> None:
+        """Write nodes in a good order."""
+        for j in longest_first(nodes, self._arguments, lambda j: latency(self.program, j, loaded=j in self._kept)):
+            self.value(j)
 
     def _arguments(self, node: int) -> tuple[int, ...]:
         """What a node needs inside the loop over samples."""
         if node in self._kept:
             return ()
         return (self._reads[node].index,) if node in self._reads else self.program.nodes[node].arguments
+
+    def _as_number(self, node: int) -> int:
+        """Register of a node's number, true and false as 1 and 0."""
+        return self.let("number", self.value(node)) if self._boolean(node) else self.value(node)
+
+    def _from_number(self, node: int, register: int) -> int:
+        """The reverse."""
+        return self.let("ne", register, self.leaf("literal", 0.0)) if self._boolean(node) else register
 
     def _boolean(self, node: int) -> bool:
         return OPERATIONS[self.program.nodes[node].op].result == "b"

@@ -17,6 +17,7 @@ from fddbench.blocks.table import Table
 
 __all__ = [
     "OPERATIONS", "Operation", "Symbolic", "exponent", "fraction", "gather", "locate", "named", "pick", "power_of_two",
+    "rarely",
 ]  # fmt: skip
 
 P = ParamSpec("P")
@@ -93,6 +94,16 @@ def pick(index: Rows, *rows: Rows) -> Rows:
     for j in range(1, len(rows)):
         chosen = np.where(index >= float(j), rows[j], chosen)
     return chosen
+
+
+@named
+def rarely(condition: Rows) -> Rows:
+    """The condition itself, which is said to be seldom true, as that a fault is there.
+
+    Compiled, what only ``np.where(rarely(condition), a, b)`` needs for its ``a`` is left out in every sample in which no
+    such condition is true in any of the cases that fly side by side. The result is the same; the saying is about speed.
+    """
+    return condition
 
 
 def locate(knots: Table, x: Rows) -> Rows:
@@ -179,6 +190,7 @@ OPERATIONS: dict[str, Operation] = {
     "not": Operation("the opposite", 1, 1, "(!{0})", np.logical_not, "b", "b"),
     "select": Operation("b where a, else c", 3, 1, "({0} ? {1} : {2})", np.where, "bff"),
     "number": Operation("1 where a, else 0", 1, 1, "({0} ? 1.0 : 0.0)", lambda a: np.where(a, 1.0, 0.0), "b"),
+    "rarely": Operation("a, which is seldom true", 1, 0, "{0}", rarely, "b", "b"),
     "fraction": Operation("significand of a, 0.5 .. 1", 1, 2, "fdd_fraction({0})", fraction, "f"),
     "exponent": Operation("power of two of a", 1, 3, "fdd_exponent({0})", exponent, "f"),
     "power_of_two": Operation("two to the whole power a", 1, 2, "ldexp(1.0, (int){0})", power_of_two, "f"),

@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from hashlib import blake2b, sha256
 from typing import Any
 
@@ -43,7 +44,7 @@ class Program:
         """Number of nodes by operation, leaves included."""
         return Counter(node.op for node in self.nodes)
 
-    @property
+    @cached_property
     def hash(self) -> str:
         """Identity of the computation, in hexadecimal: what each output row is made of, whatever was traced first."""
         found = digests(self.nodes)

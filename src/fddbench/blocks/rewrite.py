@@ -4,13 +4,14 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from fddbench.blocks.graph import Graph
+from fddbench.blocks.graph import Graph, Node
 from fddbench.blocks.operations import OPERATIONS
 from fddbench.blocks.origin import Origin
-from fddbench.blocks.program import Program, prune
+from fddbench.blocks.program import Program, digests, prune
+from fddbench.blocks.simplify import COMMUTATIVE
 from fddbench.blocks.traced import Traced
 
-__all__ = ["depends_only_on", "expand", "rebuilt"]
+__all__ = ["canonical", "depends_only_on", "expand", "rebuilt"]
 
 Replace = Callable[[Graph, str, int], int | None]
 
@@ -57,6 +58,26 @@ def rebuilt(program: Program, replace: Replace | None = None, *, expand: bool = 
 
 def _origins(program: Program) -> Iterator[Origin | None]:
     return iter(program.origins or (None,) * len(program.nodes))
+
+
+def canonical(program: Program) -> Program:
+    """The same program with its nodes in an order that does not depend on that of tracing: as its outputs need them."""
+    found, nodes = digests(program.nodes), program.nodes
+    needs = [tuple(sorted(n.arguments, key=found.__getitem__)) if n.op in COMMUTATIVE else n.arguments for n in nodes]
+    place: dict[int, int] = {}
+    left = [node for name in sorted(program.outputs, reverse=True) for node in reversed(program.outputs[name])]
+    while left:
+        missing = [a for a in needs[left[-1]] if a not in place] if left[-1] not in place else []
+        if missing:
+            left.extend(reversed(missing))
+        else:
+            place.setdefault(left.pop(), len(place))
+    return Program(
+        program.inputs,
+        tuple(Node(nodes[j].op, tuple(place[a] for a in needs[j]), nodes[j].value) for j in place),
+        {name: tuple(place[j] for j in program.outputs[name]) for name in sorted(program.outputs)},
+        tuple(program.origins[j] for j in place) if program.origins else (),
+    )
 
 
 def depends_only_on(program: Program, names: set[str]) -> list[bool]:

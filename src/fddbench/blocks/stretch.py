@@ -14,6 +14,9 @@ from fddbench.blocks.table import Table
 __all__ = ["Shared", "Writer"]
 
 
+Known = tuple[dict[int, int], dict[tuple[int, int], int], dict[Any, int]]
+
+
 class Shared:
     """Tables and functions of a kernel, by number."""
 
@@ -78,9 +81,15 @@ class Writer:
 
     def forget(self) -> None:
         """Begin a stretch that shares no register with the one before."""
-        self.registers.clear()
-        self.indices.clear()
-        self._leaves.clear()
+        self.recall(({}, {}, {}))
+
+    def known(self) -> Known:
+        """All registers so far."""
+        return self.registers.copy(), self.indices.copy(), self._leaves.copy()
+
+    def recall(self, known: Known) -> None:
+        """Go on with these registers alone."""
+        self.registers, self.indices, self._leaves = known
 
     def value(self, j: int) -> int:
         """Register of a node; written when first asked for."""
@@ -100,6 +109,8 @@ class Writer:
             return self.let("load", value=self._areas[arguments[0]] + value)
         if op == "repeat":
             return self._call(j, value, arguments)
+        if op == "rarely":
+            return self.value(arguments[0])
         if op == "locate":
             return search.locate(self, value, self.value(arguments[0]))
         if op == "gather":

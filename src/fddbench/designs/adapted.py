@@ -11,7 +11,7 @@ from fddbench.blocks.block import NO_DRAWS, NOTHING
 from fddbench.blocks.drawn import Draws
 from fddbench.blocks.layout import Layout, Nothing, Rows
 from fddbench.blocks.linear import total
-from fddbench.designs.tracing import why_opaque
+from fddbench.designs.tracing import Obstacle, obstacle
 from fddbench.errors import DesignError
 from fddbench.interfaces import Bus, Verdict
 
@@ -44,9 +44,14 @@ class Adapted:
         self.batched: bool = bool(getattr(detector, "batched", False))
 
     @cached_property
+    def obstacle(self) -> Obstacle:
+        """What is in the way of tracing its step."""
+        return obstacle(self, self.bus)
+
+    @property
     def opaque(self) -> str:
         """Why its step cannot be traced, in one line; "" when it can."""
-        return why_opaque(self, self.bus)
+        return self.obstacle.reason
 
     @property
     def one_by_one(self) -> bool:
@@ -92,6 +97,8 @@ class Adapted:
         if not isinstance(verdict, Verdict):
             raise DesignError(f"a step gives (state, Verdict), got {type(verdict).__name__} as verdict")
         n_cases = np.shape(verdict.residual)[-1:]
+        if not n_cases:
+            raise DesignError("a verdict needs residual of shape (n_cases,), got (): a row of numbers, not one")
         shapes: dict[str, tuple[Any, tuple[int, ...]]] = {"residual": (verdict.residual, n_cases)}
         if self.isolates:
             shapes["declared"] = (verdict.declared, (len(self.watches), *n_cases))
@@ -103,7 +110,7 @@ class Adapted:
         wrong = [
             f"{name} of shape {need}, got {np.shape(value)}"
             for name, (value, need) in shapes.items()
-            if np.shape(value) != need or not n_cases
+            if np.shape(value) != need
         ]
         if wrong:
             raise DesignError(f"a verdict needs {'; '.join(wrong)}")

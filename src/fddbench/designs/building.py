@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from fddbench.campaign.reading.document import refuse
 from fddbench.designs.adapted import Adapted
 from fddbench.designs.design import Design
-from fddbench.designs.reasons import line_of
+from fddbench.designs.reasons import place_in
 from fddbench.designs.soundness import Samples, unsound
 from fddbench.errors import DesignError, Mistake, raise_interrupt, reason_of
 from fddbench.interfaces import Bus, Detector
@@ -30,7 +30,7 @@ def build_detectors(designs: Sequence[Design], bus: Bus, samples: Samples | None
             wrong = f"{design.kind.name} {error}" if str(error).startswith("needs ") else str(error)
         except BaseException as error:  # a plug-in may raise anything
             raise_interrupt(error)
-            wrong = f"from_design raised {reason_of(error)}{line_of(error, design.kind.member, 'from_design')}"
+            wrong = f"from_design raised {reason_of(error)}{place_in(error, design.kind.member, 'from_design')}"
         else:
             wrong = _unsound(found, design.name, built, bus, samples)
         if wrong:

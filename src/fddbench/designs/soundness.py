@@ -10,7 +10,7 @@ import numpy as np
 from fddbench.blocks.layout import Nothing
 from fddbench.designs.adapted import Adapted
 from fddbench.designs.one_flight import OneFlight, flights_of
-from fddbench.designs.reasons import line_of, missing_signal, same_line
+from fddbench.designs.reasons import missing_signal, place_in, same_line
 from fddbench.errors import DesignError, raise_interrupt, reason_of
 from fddbench.interfaces import Bus, Floats
 
@@ -41,6 +41,8 @@ def unsound(adapted: Adapted, samples: Samples | None = None) -> str:
     unknown = [name for name in adapted.watches if name not in adapted.bus.names]
     if unknown:
         return f"it watches {unknown}, the sites of this benchmark are {list(adapted.bus.names)}"
+    if adapted.one_by_one and adapted.obstacle.mistake and (wrong := _tried_together(adapted)):
+        return wrong  # a detector of rows, as its `states` say, with a mistake in it
     if adapted.one_by_one:
         return _tried_alone(adapted, (samples or _made_up(adapted.bus, 1))())
     return _tried_together(adapted)
@@ -53,7 +55,7 @@ def _tried_together(adapted: Adapted) -> str:
         state = adapted.states.spread(adapted.start(Nothing()), 2)
     except BaseException as error:
         raise_interrupt(error)
-        return f"its start is no record of its states: {reason_of(error)}{line_of(error, detector, 'start')}"
+        return f"its start is no record of its states: {reason_of(error)}{place_in(error, detector, 'start')}"
     normals = adapted.draws.unpack(np.zeros((adapted.draws.size, 2)))
     with np.errstate(all="ignore"):
         for measured in _made_up(adapted.bus, 2)():
@@ -64,7 +66,7 @@ def _tried_together(adapted: Adapted) -> str:
             try:
                 adapted.states.check(state, 2)
             except TypeError as error:
-                return f"its step gives no record of its states: {error}{line_of(error, detector, 'step')}"
+                return f"its step gives no record of its states: {error}{place_in(error, detector, 'step')}"
     if before is not None and _fingerprint(detector) != before:
         return "its step keeps something in the detector itself; keep it in the state, which is passed in and out"
     return ""
@@ -81,7 +83,7 @@ def _tried_alone(adapted: Adapted, samples: Sequence[SimpleNamespace]) -> str:
             state = one.start()
         except BaseException as error:
             raise_interrupt(error)
-            return f"its start raised {reason_of(error)}{line_of(error, adapted.detector, 'start')}"
+            return f"its start raised {reason_of(error)}{place_in(error, adapted.detector, 'start')}"
         try:
             with np.errstate(all="ignore"):
                 for measured in flight:
@@ -100,7 +102,7 @@ def _tried_alone(adapted: Adapted, samples: Sequence[SimpleNamespace]) -> str:
 def _raised(error: BaseException, adapted: Adapted) -> str:
     """What a step raised, in one line."""
     raise_interrupt(error)
-    place = line_of(error, adapted.detector, "step")
+    place = place_in(error, adapted.detector, "step")
     if isinstance(error, DesignError):
         return f"{error}{place}"
     return f"its step raised {reason_of(error)}{missing_signal(error, adapted.bus)}{place}"

@@ -2,17 +2,18 @@
 
 from collections.abc import Mapping
 from types import SimpleNamespace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from fddbench.blocks.layout import Nothing, Rows
 from fddbench.blocks.program import Program, trace
+from fddbench.blocks.trouble import TraceError
 from fddbench.errors import DesignError, FddbenchError, raise_interrupt, reason_of
 from fddbench.interfaces import Bus
 
 if TYPE_CHECKING:
     from fddbench.designs.adapted import Adapted
 
-__all__ = ["detector_program", "why_opaque"]
+__all__ = ["Obstacle", "detector_program", "obstacle", "why_opaque"]
 
 
 def detector_program(detector: "Adapted", bus: Bus) -> Program:
@@ -37,18 +38,32 @@ def detector_program(detector: "Adapted", bus: Bus) -> Program:
 
 
 def why_opaque(detector: "Adapted", bus: Bus) -> str:
-    """Why a detector cannot be traced, in one line; "" when it can.
+    """Why a detector cannot be traced, in one line; "" when it can."""
+    return obstacle(detector, bus).reason
+
+
+class Obstacle(NamedTuple):
+    """Why a step cannot be traced, "" when it can; and whether the same would go wrong on plain rows, for all we know."""
+
+    reason: str
+    mistake: bool = False
+
+
+def obstacle(detector: "Adapted", bus: Bus) -> Obstacle:
+    """What is in the way of tracing a detector.
 
     A step that keeps something between two calls gives two different programs, and is opaque for that.
     """
     if not detector.has_states:
-        return "it has no `states`: ordinary Python"
+        return Obstacle("it has no `states`: ordinary Python")
     try:
         if detector_program(detector, bus).hash != detector_program(detector, bus).hash:
-            return "its step keeps something between two calls"
-    except FddbenchError as error:
-        return " ".join(str(error).split())
+            return Obstacle("its step keeps something between two calls")
+    except TraceError as error:
+        return Obstacle(" ".join(str(error).split()))
     except BaseException as error:  # a user's step may raise anything on values that are not arrays
         raise_interrupt(error)
-        return reason_of(error)
-    return ""
+        return Obstacle(
+            " ".join(str(error).split()) if isinstance(error, FddbenchError) else reason_of(error), mistake=True
+        )
+    return Obstacle("")

@@ -12,11 +12,13 @@ from pathlib import Path
 from fddbench.errors import ResultsError
 from fddbench.results.shards import write_bytes
 
-__all__ = ["claim", "locked", "provenance_of", "refuse_foreign"]
+__all__ = ["RESERVED", "claim", "locked", "provenance_of", "refuse_foreign"]
 
 _PROVENANCE = "provenance.json"
 _WRITTEN = ("campaign.yaml", "detectors", "manifest.jsonl", _PROVENANCE, "rows", "events", "report.html")
 _OURS = (*_WRITTEN, ".lock", ".pid")
+RESERVED = frozenset(_OURS) - {"detectors"}
+"""Names in a folder of results that no file beside a campaign can have when it travels there."""
 _LEFT = re.compile(r"\..+\.[0-9]+\.tmp")
 """What a crash in the middle of a write leaves behind."""
 _PLUGIN = re.compile(r"[A-Za-z_][A-Za-z0-9_-]*(\.[A-Za-z0-9_-]+)*")
@@ -167,15 +169,9 @@ def _difference(folder: Path, files: Mapping[str, bytes]) -> str:
     """What differs between the folder's campaign and this one, as a short diff."""
     lines: list[str] = []
     for name, content in sorted(files.items(), key=lambda item: item[0] != "campaign.yaml"):
-        before = (
-            (folder / name).read_bytes().decode("utf-8", "replace").splitlines() if (folder / name).is_file() else []
-        )
-        text = content.decode("utf-8", "replace")
-        lines += [
-            line
-            for line in unified_diff(before, text.splitlines(), "there", "here", n=0, lineterm="")
-            if line[:3] != "@@ "
-        ]
+        before = (folder / name).read_bytes() if (folder / name).is_file() else b""
+        if before != content:
+            lines = [f"{name}: other bytes"] if b"\0" in content + before else _lines(before, content)
         if lines:
             break
     shown = "\n".join(f"  {line}" for line in lines[:12]) or "  (another version of a design or plug-in)"
@@ -183,3 +179,9 @@ def _difference(folder: Path, files: Mapping[str, bytes]) -> str:
         f"{folder} holds results of another campaign:\n{shown}\n"
         "Name another folder with --out, or replace the results with --fresh."
     )
+
+
+def _lines(before: bytes, after: bytes) -> list[str]:
+    """What differs between two texts, without their places."""
+    there, here = (content.decode("utf-8", "replace").splitlines() for content in (before, after))
+    return [line for line in unified_diff(there, here, "there", "here", n=0, lineterm="") if line[:3] != "@@ "]

@@ -38,10 +38,20 @@ class DetectorFlight:
     alone : bool
         Whether a case flown alone here is the last word. Signals recorded from compiled flights show not-a-number after a
         departure, so what raises on them is flown again.
+    hear : bool
+        Whether every verdict is kept in `heard`, (n, n_cases) rows called `names` a sample; not-a-number where a flight has
+        raised.
     """
 
     def __init__(
-        self, assembly: Assembly, name: str, batch: Batch, recorded: Sequence[str] = (), *, alone: bool = True
+        self,
+        assembly: Assembly,
+        name: str,
+        batch: Batch,
+        recorded: Sequence[str] = (),
+        *,
+        alone: bool = True,
+        hear: bool = False,
     ) -> None:
         self.assembly, self.name, self.batch = assembly, name, batch
         self.detector, scoring, n_cases = assembly.detectors[name], assembly.scoring, len(batch.cases)
@@ -49,6 +59,9 @@ class DetectorFlight:
         self.score = scoring.states.spread(scoring.start(self.constants), n_cases)
         self.kept: dict[str, list[Floats]] = {full: [] for full in recorded if full.startswith(f"{name}:")}
         self.verdicts = verdicts_of(self.detector, n_cases)
+        self.hear, self.heard = hear, list[Floats]()
+        declared = (f"declaration of {site}" for site in self.detector.bus.names)
+        self.names = (*declared, "alarm", "residual", *self.detector.recorded)
         self.last_word = self.detector.one_by_one or (n_cases == 1 and alone)
 
     @property
@@ -70,10 +83,19 @@ class DetectorFlight:
         self.score, number = self.assembly.scoring.step(
             self.score, self.constants, Nothing(), verdict, sample, sample < departed
         )
-        if self.kept:
-            seen, flying = shown(verdict, number), np.array([not raised for raised in self.verdicts.raised])
-            for full, rows in self.kept.items():
-                rows.append(np.where(flying, np.asarray(seen[full.split(":", 1)[1]], dtype=float), np.nan))
+        if not self.kept and not self.hear:
+            return
+        seen, flying = shown(verdict, number), np.array([not raised for raised in self.verdicts.raised])
+        if self.hear:
+            rows = [
+                *verdict.declared,
+                verdict.alarm,
+                verdict.residual,
+                *(seen[name] for name in self.detector.recorded),
+            ]
+            self.heard.append(np.array([np.where(flying, row, np.nan) for row in rows]))
+        for full, rows in self.kept.items():
+            rows.append(np.where(flying, np.asarray(seen[full.split(":", 1)[1]], dtype=float), np.nan))
 
     def _drawn(self, sample: int) -> Any:
         """Random numbers of the detector at a sample, by name."""

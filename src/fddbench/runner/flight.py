@@ -62,7 +62,7 @@ class Flyer:
     def __init__(
         self, assembly: Assembly, backend: str = "auto", given_up: Mapping[str, GivenUp] | None = None
     ) -> None:
-        self.assembly, self.given_up = assembly, given_up or {}
+        self.assembly, self.backend, self.given_up = assembly, backend, given_up or {}
         self.compiled = backend == "llvm" or (backend == "auto" and llvm.available())
 
     @cached_property

@@ -1,9 +1,8 @@
 """Detectors that fail always and are not flown to the end."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
-__all__ = ["GivenUp"]
+__all__ = ["GivenUp", "GivenUps"]
 
 _LONGEST = 200
 
@@ -14,18 +13,22 @@ class GivenUp:
 
     Attributes
     ----------
-    reasons : mapping of int to str
-        What it raised on each of those flights, by case.
+    reasons : tuple of (int, str)
+        Each of those cases, and what the detector raised on it.
     """
 
-    reasons: Mapping[int, str]
+    reasons: tuple[tuple[int, str], ...]
 
     @property
     def said(self) -> str:
         """Reason of all other rows."""
-        text = f"given up: on each of the first {len(self.reasons)} flights {next(iter(self.reasons.values()))}"
+        text = f"given up: on each of the first {len(self.reasons)} flights {self.reasons[0][1]}"
         return text if len(text) <= _LONGEST else text[: _LONGEST - 3] + "..."
 
     def reason(self, case: int) -> str:
         """Reason of the row of a case."""
-        return self.reasons.get(case, self.said)
+        return dict(self.reasons).get(case, self.said)
+
+
+GivenUps = tuple[tuple[str, GivenUp], ...]
+"""Detectors that are given up, by name: plain data that crosses to workers."""

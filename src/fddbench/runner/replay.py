@@ -1,7 +1,7 @@
 """Flies cases of a finished campaign again and keeps the signals: for pictures and for a close look."""
 
+import re
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +14,7 @@ from fddbench.campaign.plan import PlannedScenario
 from fddbench.interfaces import Floats, Recording
 from fddbench.results.folder import provenance_of
 from fddbench.runner.assembling import assemble
-from fddbench.runner.assembly import Assembly, Batch
+from fddbench.runner.assembly import Batch
 from fddbench.runner.flight import Flyer
 from fddbench.runner.work import frozen
 
@@ -22,6 +22,8 @@ __all__ = ["MOST_CASES", "replay", "replay_campaign", "sampled_cases"]
 
 MOST_CASES = 50
 """Cases of a scenario that a picture shows, beside the worst ones."""
+
+_NUMBER = re.compile(r"_[0-9]+$")
 
 Cases = npt.NDArray[np.int64]
 
@@ -102,10 +104,12 @@ def _record(
     if planned.k0 is not None and seconds is not None:
         last = min(last, planned.k0 + round(seconds / sample_s))
     sources = {**dict.fromkeys(assembly.loop.bus.signals, "measured"), **dict.fromkeys(assembly.loop.truth, "truth")}
-    kept = [f"{source}:{name}" for name, source in sources.items() if signals is None or name in signals]
+    # a row of a signal, q_deg_s_2, is asked for by its number or with all the others, q_deg_s
+    asked = {name for full in signals or () for name in (full, _NUMBER.sub("", full))}
+    kept = [f"{source}:{name}" for name, source in sources.items() if signals is None or name in asked]
     shown = {name: ("n_declared", "residual", *detector.recorded) for name, detector in assembly.detectors.items()}
     kept += [f"{detector}:{name}" for detector, names in shown.items() for name in names]
-    found = flyer.fly(_shortened(assembly, batch, last), kept).recorded
+    found = flyer.fly(assembly.shortened(batch, float(last)), kept).recorded
     return Recording(
         scenario=planned.name,
         cases=tuple(batch.cases.tolist()),
@@ -120,13 +124,6 @@ def _record(
             name: {signal: found[f"{name}:{signal}"][:, 0] for signal in names} for name, names in shown.items()
         },
     )
-
-
-def _shortened(assembly: Assembly, batch: Batch, last: int) -> Batch:
-    """The same batch, scored and flown only as far as the recording goes."""
-    named = assembly.scoring.constants.unpack(rows := batch.score_constants.copy())
-    named.last[...] = np.minimum(named.last, float(last))
-    return replace(batch, score_constants=rows)
 
 
 def _numbered(recorded: Mapping[str, Floats]) -> Iterator[tuple[str, Floats]]:

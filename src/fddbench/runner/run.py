@@ -14,9 +14,10 @@ from fddbench.results import manifest
 from fddbench.results.folder import claim, locked
 from fddbench.results.provenance import collect
 from fddbench.runner.assembling import assemble
-from fddbench.runner.chunks import CHUNK, COMPILED_CHUNK, cut, missing, spans
+from fddbench.runner.chunks import CHUNK, COMPILED_CHUNK, OPAQUE_CHUNK, cut, missing, spans
 from fddbench.runner.flight import Flyer
 from fddbench.runner.pool import fly_all
+from fddbench.runner.rehearsal import rehearsed
 from fddbench.runner.work import flyer_of
 
 __all__ = ["Progress", "RunReport", "run_campaign"]
@@ -99,18 +100,18 @@ def run_campaign(
     Raises
     ------
     FddbenchError
-        The design makes no detector, the folder is another campaign's, or is being written.
+        The design makes no detector, or one whose rows depend on more than their flight; the folder is another campaign's, or
+        is being written.
     """
     begun = time.monotonic()
-    flyer = Flyer(assemble(campaign), backend)
+    flyer = rehearsed(Flyer(assemble(campaign), backend), notice)
     plan = flyer.assembly.plan
-    _tell(flyer, notice)
     with locked(folder):
         claim(folder, files=campaign.files(), provenance=_provenance(campaign), fresh=fresh)
         left, told = _left(folder, plan.n_cases, progress)
-        size = chunk or (COMPILED_CHUNK if flyer.compiled else CHUNK)
+        size = chunk or _chunk(flyer)
         chunks = [spans(part) for part in cut(plan, left, size=size, jobs=jobs)]
-        work = (str(folder), campaign.sha256, backend)
+        work = (str(folder), campaign.sha256, backend, tuple(flyer.given_up.items()))
         threads = flyer.compiled and not flyer.opaque
         if len(left) and threads:
             flyer_of(*work)
@@ -158,12 +159,11 @@ class _Told:
             self.progress(Progress(flown=self.flown, done=done, total=self.total, statuses=self.statuses))
 
 
-def _tell(flyer: Flyer, notice: Callable[[str], None] | None) -> None:
-    """Say which detectors cannot be compiled, and what that costs."""
-    if notice is None or not flyer.compiled:
-        return
-    for name, reason in flyer.opaque.items():
-        notice(f"{name} cannot be compiled and flies in Python, at some 1 ms per sample and chunk: {reason}")
+def _chunk(flyer: Flyer) -> int:
+    """Cases of a chunk; fewer where some detectors fly in Python flight by flight, so that a chunk does not last for hours."""
+    if any(flyer.assembly.detectors[name].one_by_one for name in flyer.opaque):
+        return OPAQUE_CHUNK
+    return COMPILED_CHUNK if flyer.compiled else CHUNK
 
 
 def _fly(folder: Path, shards: Generator[manifest.Shard, None, None], told: _Told) -> bool:

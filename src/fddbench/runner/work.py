@@ -21,6 +21,7 @@ from fddbench.runner.assembling import assemble
 from fddbench.runner.assembly import Assembly, Batch, has_events
 from fddbench.runner.chunks import Spans, expand, spans
 from fddbench.runner.flight import Flyer, Outcome
+from fddbench.runner.given_up import GivenUps
 
 __all__ = ["fly_and_write", "flyer_of", "frozen", "rows_and_events", "rows_of"]
 
@@ -31,10 +32,10 @@ _SHARED = ("case", "scenario", "run", "detector", "status", "reason")
 _making = Lock()
 
 
-def flyer_of(folder: str, campaign_sha256: str, backend: str) -> Flyer:
+def flyer_of(folder: str, campaign_sha256: str, backend: str, given_up: GivenUps = ()) -> Flyer:
     """What flies a frozen campaign, made and compiled once per process."""
     with _making:
-        return _flyer(folder, campaign_sha256, backend)
+        return _flyer(folder, campaign_sha256, backend, given_up)
 
 
 def frozen(folder: Path, campaign_sha256: object) -> Campaign:
@@ -58,16 +59,16 @@ _REMEDY = "Run the campaign again on this folder: it puts the files back."
 
 
 @lru_cache(maxsize=2)
-def _flyer(folder: str, campaign_sha256: str, backend: str) -> Flyer:
-    flyer = Flyer(assemble(frozen(Path(folder), campaign_sha256)), backend)
+def _flyer(folder: str, campaign_sha256: str, backend: str, given_up: GivenUps) -> Flyer:
+    flyer = Flyer(assemble(frozen(Path(folder), campaign_sha256)), backend, dict(given_up))
     flyer.prepare()
     return flyer
 
 
-def fly_and_write(folder: str, campaign_sha256: str, backend: str, case_spans: Spans) -> Shard:
+def fly_and_write(folder: str, campaign_sha256: str, backend: str, given_up: GivenUps, case_spans: Spans) -> Shard:
     """Fly the cases and write their shard into the folder of results; everything crosses as plain data."""
     cases = expand(case_spans)
-    rows, events = rows_and_events(flyer_of(folder, campaign_sha256, backend), cases)
+    rows, events = rows_and_events(flyer_of(folder, campaign_sha256, backend, given_up), cases)
     name = f"{cases[0]:08d}-{cases[-1]:08d}-{len(cases)}.parquet"
     path = Path(folder)
     events_sha256 = write_table(path / "events" / name, events) if len(events) else None

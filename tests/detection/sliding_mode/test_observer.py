@@ -125,7 +125,7 @@ class ByHand:
         weights = np.array([1.0, *rho])
         A = with_filter(np.tensordot(weights, model.tables["A"][..., 0], 1), True)
         A[4, 3], A[4, 4] = g.filter_pole_1_s, -g.filter_pole_1_s
-        B = np.vstack([np.tensordot(weights, model.B[..., 0], 1), np.zeros(13)])
+        B = np.vstack([np.tensordot(weights, model.tables["B"][..., 0], 1), np.zeros(13)])
         Gl = np.tensordot(weights, np.array(g.linear_gain), 1)
         y_m = np.array([*y, self.z])
         x = self.x + T * self.rate

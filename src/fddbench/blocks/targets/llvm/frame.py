@@ -123,6 +123,7 @@ def _ending(o: Vectors, finished: list[str], plan: Plan) -> None:
     for number in finished:
         over = o.let(f"or {o.M} {over}, {operation(o, 'ne', number, o.number(0.0))}")
     o.do(f"%ending = and {o.M} %active, {over}")
+    sample = o.block
     o.branch_if_any("%ending", "landing", "go_on")
     o.do("landing:")
     now = o.let(f"load {o.I}, ptr %samples_at, align 8")
@@ -133,7 +134,7 @@ def _ending(o: Vectors, finished: list[str], plan: Plan) -> None:
     o.do(f"%others = and {o.M} %active, {operation(o, 'not', '%ending')}")
     o.branch_if_any("%others", "go_on", "next_block")
     o.do("go_on:")
-    o.do(f"%still = phi {o.M} [%active, %sample], [%others, %landed]")
+    o.do(f"%still = phi {o.M} [%active, %{sample}], [%others, %landed]")
     o.do("%paused = icmp sge i64 %k_next, %end")
     o.do("br i1 %paused, label %pause, label %more")
     o.do("more:")

@@ -32,6 +32,9 @@ def table(slots: int, n_recorded: int) -> dict[str, Line]:
         "index": lambda o, _, a: o.let(f"fptosi {o.V} {a} to <{o.lanes} x i32>"),
         "gather": _gather,
         "call": lambda o, value: o.do(f"call void @repeat_{value[0]}(ptr {o.slot(value[1])})"),
+        "skip": _skip,
+        "resume": _resume,
+        "join": lambda o, _, a: o.let(f"phi {o.V} [{a}, %rare], [zeroinitializer, %sample]"),
         "record": lambda o, value, a: _record(o, value, a, n_recorded),
     }
 
@@ -71,6 +74,16 @@ def _gather(o: Vectors, number: int, index: str) -> str:
     here = o.let(f"getelementptr inbounds double, ptr @table_{number}, <{o.lanes} x i32> {index}")
     given = f"{places} {here}, i32 8, {o.M} {o.flag(value=True)}, {o.V} poison"
     return o.let(f"call {o.V} @llvm.masked.gather.v{o.lanes}f64.v{o.lanes}p0({given})")
+
+
+def _skip(o: Vectors, _: None, mask: str) -> None:
+    o.branch_if_any(mask, "rare", "resumed")
+    o.do("rare:")
+
+
+def _resume(o: Vectors, _: None) -> None:
+    o.do("br label %resumed")
+    o.do("resumed:")
 
 
 def _record(o: Vectors, number: int, a: str, n_recorded: int) -> None:

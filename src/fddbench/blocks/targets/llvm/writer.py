@@ -16,12 +16,18 @@ class Vectors:
         Runs flown side by side.
     rounds : bool
         The processor rounds to whole numbers in one instruction (SSE4.1 and later).
+
+    Attributes
+    ----------
+    block : str
+        Label last written.
     """
 
     def __init__(self, lanes: int, *, rounds: bool = True) -> None:
         self.lanes, self.rounds = lanes, rounds
         self.V, self.M, self.I = f"<{lanes} x double>", f"<{lanes} x i1>", f"<{lanes} x i64>"
         self.bytes = 8 * lanes
+        self.block = ""
         self.lines: list[str] = []
         self._n = 0
 
@@ -33,6 +39,8 @@ class Vectors:
 
     def do(self, text: str) -> None:
         """Write an instruction or a label without a value."""
+        if text.endswith(":"):
+            self.block = text[:-1]
         self.lines.append(text if text.endswith(":") else "  " + text)
 
     def scalar(self, value: float) -> str:

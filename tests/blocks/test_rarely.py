@@ -1,0 +1,111 @@
+"""Laws of what is seldom needed: the same bits, left out when nobody needs it, and only then."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from fddbench.blocks import functions
+from fddbench.blocks.draws import with_draws
+from fddbench.blocks.kernel import Addresses, build
+from fddbench.blocks.lower import Spec, lower
+from fddbench.blocks.operations import rarely
+from fddbench.blocks.plan import Plan
+from fddbench.blocks.program import Program, trace
+from fddbench.blocks.repeat import repeat
+
+N_STATE, STREAMS = 5, ((1, "flight"), (2, "scenario"), (3, "scenario"))
+
+
+def _wave(x: Any) -> Any:
+    return functions.sin(functions.exp(-x * x) + functions.cos(x))
+
+
+def _faults(state: Any, constants: Any, normals: Any, sample: Any) -> dict[str, Any]:
+    """Faults one after the other, each taking what the one before made; draws and results shared with what is always needed."""
+    first = constants[0]
+    active = (sample >= first) & (sample < first + 5.0)
+    y = 0.9 * state[0] + normals[0]
+    shared = _wave(y)
+    y = np.where(rarely(active), _wave(sample * 0.1) * constants[1] + normals[4] + normals[10], y)
+    y = np.where(rarely(sample == first + 7.0), y + _wave(state[1]) + normals[5] * shared, y)
+    later = rarely(y > 2.5)  # known only after the choices above
+    z = np.where(later, _wave(y) - 3.0, y)
+    nested = np.where(rarely(active), np.where(rarely(state[2] > 1.0), _wave(state[2] + 1.0), _wave(state[2])), z)
+    looped = np.where(rarely(active), repeat(lambda x: 0.5 * x + _wave(state[3]), y[np.newaxis], count=3)[0], nested)
+    seen = _wave(state[4] * 2.0)
+    kept = np.where(rarely(active), seen, 0.5)  # recorded too, so needed always
+    after = np.stack([y, z, nested, looped, state[4] * 0.5 + kept + normals[8]])
+    return {"state": after, "seen": seen[np.newaxis], "finished": (np.abs(looped) > 50.0)[np.newaxis]}
+
+
+def _program(step: Any = _faults) -> Program:
+    return trace(step, state=N_STATE, constants=2, normals=12, sample=0)
+
+
+def _flown(first: Any, **how: Any) -> Any:
+    n_cases = len(first)
+    state = np.random.default_rng(0).normal(size=(N_STATE, n_cases))
+    constants = np.stack([first, np.linspace(0.5, 2.0, n_cases)])
+    where = Addresses(key=9, run=np.arange(n_cases), flight=1, scenario=5)
+    kernel = build(_program(), streams=STREAMS, recorded=("seen",), **how)
+    return kernel.fly(state, constants, np.full(n_cases, 40), where, first=0, end=40)
+
+
+@pytest.mark.parametrize("first", [np.full(37, 1e9), np.arange(37.0), np.where(np.arange(37) % 16 == 3, 4.0, 1e9)])
+def test_machine_code_flies_as_numpy_does(where: Any, same: Any, first: Any) -> None:
+    expected, found = _flown(first, backend="numpy"), _flown(first, **where)
+    assert same(found.state, expected.state)
+    assert same(found.recorded["seen"], expected.recorded["seen"])
+    assert np.array_equal(found.samples, expected.samples)
+
+
+def test_on_plain_arrays_it_says_nothing() -> None:
+    flags = np.array([True, False])
+    assert rarely(flags) is flags
+
+
+def _plan(step: Any) -> Plan:
+    recorded = ("seen",) if step is _faults else ()
+    return lower(Spec(program=with_draws(_program(step)), streams=STREAMS, recorded=recorded))
+
+
+def test_what_nobody_needs_is_behind_the_branch_and_nothing_else() -> None:
+    plan = _plan(_faults)
+    ops = [line.op for line in plan.sample]
+    start, end = ops.index("skip"), ops.index("resume")
+    draws = [plan.sample[j].value for j, op in enumerate(ops) if op == "draw" and start < j < end]
+    assert draws == [(2, "scenario")]
+    assert ops.count("draw") == 3
+    assert ops[start:end].count("rint") >= 4
+    assert "call" not in ops[start:end]  # its start is made of an earlier choice
+
+
+def _cheap(state: Any, constants: Any, normals: Any, sample: Any) -> dict[str, Any]:
+    return {"state": np.where(rarely(sample > constants[0]), state + normals[0] * 0.0 + 1.0, state)}
+
+
+def _both(state: Any, constants: Any, normals: Any, sample: Any) -> dict[str, Any]:
+    wave = _wave(state)
+    return {"state": np.where(rarely(sample > constants[0]), wave, -wave) + 0.0 * normals[0]}
+
+
+def _unsaid(state: Any, constants: Any, normals: Any, sample: Any) -> dict[str, Any]:
+    return {"state": np.where(sample > constants[0], _wave(state), state) + 0.0 * normals[0]}
+
+
+@pytest.mark.parametrize("step", [_cheap, _both, _unsaid])
+def test_no_branch_where_it_would_spare_nothing(step: Any) -> None:
+    assert "skip" not in [line.op for line in _plan(step).sample]
+
+
+def test_it_is_faster_not_to_compute() -> None:
+    """A count, not a time: the branch spares most of the operations of the sample."""
+
+    def step(state: Any, constants: Any, normals: Any, sample: Any) -> dict[str, Any]:
+        waves = sum(_wave(state + j + normals[4]) for j in range(5))
+        return {"state": np.where(rarely(sample > constants[0]), waves, state * 0.5)}
+
+    ops = [line.op for line in _plan(step).sample]
+    inside = ops.index("resume") - ops.index("skip")
+    assert inside > 0.9 * len(ops)
