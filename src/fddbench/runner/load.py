@@ -13,8 +13,8 @@ from fddbench.blocks.accounting import Cost, cost
 from fddbench.blocks.layout import Nothing, Rows
 from fddbench.blocks.program import trace
 from fddbench.designs.adapted import Adapted
+from fddbench.designs.tracing import detector_program
 from fddbench.interfaces import Bus
-from fddbench.runner.fused import detector_program, why_opaque
 
 __all__ = ["DetectorLoad", "detector_load", "in_words", "seconds_in_python"]
 
@@ -42,9 +42,8 @@ class DetectorLoad:
 
 def detector_load(detector: Adapted, bus: Bus, *, timed: bool = True) -> DetectorLoad:
     """Count the operations of one step, and time it unless told not to."""
-    reason = why_opaque(detector, bus)
-    if reason:
-        return DetectorLoad(cost=None, nanoseconds=None, opaque=reason)
+    if detector.opaque:
+        return DetectorLoad(cost=None, nanoseconds=None, opaque=detector.opaque)
     nanoseconds = _nanoseconds(detector, bus) if timed and llvm.available() else None
     program = detector_program(detector, bus).keep("state", "declared", "alarm", "residual")
     return DetectorLoad(cost=cost(program), nanoseconds=nanoseconds)
