@@ -4,6 +4,7 @@ Every message names the place, what was received, what is allowed and what to do
 ``__init__`` of their own, because only those survive the way back from a worker process.
 """
 
+import dis
 import sys
 import sysconfig
 import traceback
@@ -25,6 +26,7 @@ __all__ = [
     "UnknownNameError",
     "did_you_mean",
     "place_of",
+    "raise_interrupt",
     "reason_of",
     "warn",
 ]
@@ -51,7 +53,8 @@ def reason_of(error: BaseException) -> str:
     """
     try:
         text = " ".join(str(error).encode("utf-8", "backslashreplace").decode().split())
-    except Exception:
+    except BaseException as worse:  # a foreign text may raise anything as well
+        raise_interrupt(worse)
         text = "(its text cannot be made)"
     whole = f"{type(error).__name__}: {text}" if text else type(error).__name__
     return whole if len(whole) <= _LONGEST else whole[: _LONGEST - 3] + "..."
@@ -73,6 +76,23 @@ def warn(message: str, category: type[Warning]) -> None:
     while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("fddbench."):
         frame, level = frame.f_back, level + 1
     warnings.warn(message, category, stacklevel=level)
+
+
+def raise_interrupt(error: BaseException) -> None:
+    """Raise Ctrl-C again; anything else that foreign code raises is its own, a KeyboardInterrupt of its own included.
+
+    For ``except BaseException`` around foreign code: a detector may raise SystemExit, GeneratorExit, MemoryError, whatever.
+    """
+    if isinstance(error, KeyboardInterrupt) and not _by_statement(error):
+        raise error
+
+
+def _by_statement(error: BaseException) -> bool:
+    """Whether a ``raise`` in somebody's code raised this; Ctrl-C comes between two instructions, wherever they are."""
+    last = error.__traceback__
+    while last is not None and last.tb_next is not None:
+        last = last.tb_next
+    return last is not None and last.tb_frame.f_code.co_code[last.tb_lasti] == dis.opmap["RAISE_VARARGS"]
 
 
 class FddbenchError(Exception):

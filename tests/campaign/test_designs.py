@@ -38,7 +38,7 @@ def test_builds_detectors_in_order(write):
     path = write(designs={"other": text}, **{"[plain]": "[other, plain]"})
     found = build_detectors(read_campaign(path).designs, BUS)
     assert list(found) == ["other", "plain"]
-    assert found["plain"].gains.weights == (1.0, 2.5)
+    assert found["plain"].detector.gains.weights == (1.0, 2.5)
 
 
 def test_a_design_that_makes_no_detector_is_located(write):
@@ -51,7 +51,7 @@ def test_a_design_that_makes_no_detector_is_located(write):
 def test_plugins_lie_beside_their_design(write):
     path = write(designs={"mine": USES_PLUGIN, "plugin.py": PLUGIN}, **{"[plain]": "[mine]"})
     campaign = read_campaign(path)
-    assert build_detectors(campaign.designs, BUS)["mine"].level == 3.0
+    assert build_detectors(campaign.designs, BUS)["mine"].detector.level == 3.0
     assert campaign.files()["detectors/plugin.py"] == PLUGIN.encode()
     assert read_campaign(path).designs[0].gains == campaign.designs[0].gains
 

@@ -98,6 +98,7 @@ def test_a_failing_detector_of_ones_own_exits_with_one(tiny, capsys):
         (gallery.folder("detectors") / "cusum_example.py")
         .read_text()
         .replace("distance = ", "0 / int((measured.mass_kg < 1e3).any())\n        distance = ")
+        .replace("    Gains = ", "    batched = True\n    Gains = ")
     )
     design = yaml.safe_load((gallery.folder("detectors") / "cusum_example.yaml").read_text())
     (tiny / "detectors" / "mine.yaml").write_text(yaml.safe_dump({**design, "kind": "mine.py:Cusum"}))

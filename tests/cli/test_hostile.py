@@ -26,6 +26,7 @@ def plugin(tmp_path, monkeypatch):
         for old, new in changes:
             assert old in text
             text = text.replace(old, new)
+        text = text.replace("    Gains = ", "    batched = True\n    Gains = ")  # written for many flights side by side
         (tmp_path / "detectors" / "mine.py").write_text(text)
         (tmp_path / "detectors" / "mine.yaml").write_text(DESIGN.replace("cusum_example.py", "mine.py"))
         options = ["--quiet", "--jobs", "1", "--out", "out", "--backend", backend] if command == "run" else []
@@ -51,8 +52,9 @@ def line_of(path, words):
         (("import numpy as np", "import sys; sys.exit()"), "does not run: SystemExit", ""),
         ((FROM_DESIGN, "raise ValueError('no')"), "from_design raised ValueError: no", "raise ValueError"),
         ((FROM_DESIGN, "raise SystemExit(0)"), "from_design raised SystemExit", "raise SystemExit"),
-        ((FROM_DESIGN, "return None"), "needs an attribute `states`", ""),
-        (("    recorded = ", "    shown = "), "needs an attribute `recorded`", ""),
+        ((FROM_DESIGN, "return None"), "from_design gave no detector: it has no start and no step", ""),
+        (("    recorded = ", "    shown = "), "recorded announces []", ""),
+        (("        self.states = ", "        self.kept = "), "with batched = True it needs an attribute `states`", ""),
         (
             (START, "return CusumState(sum_deg_s=np.zeros(4), declared=0.0)"),
             "its start is no record of its states",

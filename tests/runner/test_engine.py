@@ -10,12 +10,13 @@ from fddbench.blocks import kernel, llvm
 from fddbench.blocks.layout import Nothing, mapped
 from fddbench.campaign.load import read_campaign
 from fddbench.designs.adapted import Adapted
+from fddbench.designs.tracing import why_opaque
 from fddbench.errors import FddbenchError
 from fddbench.metrics.scoring import NEVER
 from fddbench.runner.assembling import assemble
 from fddbench.runner.eager import fly_eagerly
 from fddbench.runner.flight import Flyer
-from fddbench.runner.fused import Fused, why_opaque
+from fddbench.runner.fused import Fused
 from fddbench.runner.work import rows_and_events
 
 needs_llvm = pytest.mark.skipif(not llvm.available(), reason="llvmlite is not installed")
@@ -101,7 +102,9 @@ def test_every_shipped_design_is_compiled(benchmark):
 
 
 class WithIf:
-    """A detector with an `if` on data, which no compiler can follow."""
+    """A detector with an `if` on data, which no compiler can follow; written for many flights side by side."""
+
+    batched = True
 
     def __init__(self, inner):
         self.inner, self.states, self.recorded = inner, inner.states, inner.recorded

@@ -18,6 +18,8 @@ from fddbench.runner.work import rows_and_events
 class Faulty:
     """Wraps a detector and does something wrong with it."""
 
+    batched = True
+
     def __init__(self, inner, wrong):
         self.inner, self.wrong, self.states, self.recorded = inner, wrong, inner.states, inner.recorded
 

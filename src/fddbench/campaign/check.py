@@ -14,7 +14,7 @@ from fddbench.faults.specification import FaultSpecification
 from fddbench.faults.timing import latest_onset_s
 from fddbench.faults.varied import Varied, in_words
 
-__all__ = ["describe", "estimated_seconds"]
+__all__ = ["describe", "duration", "estimated_seconds"]
 
 _BYTES_PER_ROW = 60
 _BYTES_PER_FOLDER = 200_000
@@ -192,10 +192,11 @@ def _bill(plan: Plan, seconds: float, jobs: int) -> Iterator[str]:
     disk = plan.n_rows * _BYTES_PER_ROW + _BYTES_PER_FOLDER
     rows = f"{plan.n_cases:,} cases x {n} detector{'s' if n > 1 else ''} = {plan.n_rows:,} rows"
     yield f"{rows}, {flown / 3600:.4g} h of flight"
-    yield f"About {_duration(seconds)} with {jobs} jobs, and {_size(disk)} on disk"
+    yield f"About {duration(seconds)} with {jobs} jobs, and {_size(disk)} on disk"
 
 
-def _duration(seconds: float) -> str:
+def duration(seconds: float) -> str:
+    """Seconds in words, in the unit that suits: ``"26 s"``, ``"1.5 h"``."""
     for length, unit in _SECONDS:
         if seconds >= length:
             return f"{seconds / length:.2g} {unit}"

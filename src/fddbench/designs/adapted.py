@@ -1,6 +1,7 @@
 """A detector as the composition flies it: a full block whose verdict speaks of every site of the benchmark."""
 
 from dataclasses import replace
+from functools import cached_property
 from types import SimpleNamespace
 from typing import Any
 
@@ -10,6 +11,7 @@ from fddbench.blocks.block import NO_DRAWS, NOTHING
 from fddbench.blocks.drawn import Draws
 from fddbench.blocks.layout import Layout, Nothing, Row, Rows
 from fddbench.blocks.linear import total
+from fddbench.designs.tracing import Obstacle, obstacle
 from fddbench.errors import DesignError
 from fddbench.interfaces import Bus, Verdict
 
@@ -31,13 +33,31 @@ class Adapted:
 
     def __init__(self, detector: Any, bus: Bus) -> None:
         self.detector, self.bus = detector, bus
-        self.states: Layout[Any] = detector.states
+        states = getattr(detector, "states", None)
+        self.has_states = isinstance(states, Layout)
+        self.states: Layout[Any] = states if isinstance(states, Layout) else NOTHING
         self.full = getattr(detector, "draws", None) is not None
         self.draws: Draws[Any] = getattr(detector, "draws", NO_DRAWS)
-        self.recorded: tuple[str, ...] = detector.recorded
+        self.recorded: tuple[str, ...] = getattr(detector, "recorded", ())
         self.watches: tuple[str, ...] = tuple(getattr(detector, "watches", bus.names))
         self.isolates: bool = bool(getattr(detector, "isolates", True))
         self.estimates: str | None = getattr(detector, "estimates", None)
+        self.batched: bool = bool(getattr(detector, "batched", False))
+
+    @cached_property
+    def obstacle(self) -> Obstacle:
+        """What is in the way of tracing its step."""
+        return obstacle(self, self.bus)
+
+    @property
+    def opaque(self) -> str:
+        """Why its step cannot be traced, in one line; "" when it can."""
+        return self.obstacle.reason
+
+    @property
+    def one_by_one(self) -> bool:
+        """Whether it sees one flight at a time: ordinary Python that does not ask for many."""
+        return bool(self.opaque) and not self.batched
 
     def start(self, c: Nothing) -> Any:
         """State before the first sample."""
@@ -50,12 +70,22 @@ class Adapted:
         if not isinstance(given, tuple) or len(given) != 2:
             raise DesignError(f"a step gives (state, Verdict), got {type(given).__name__}")
         after, verdict = given
+        return after, self.spoken(verdict)
+
+    def spoken(self, verdict: Verdict) -> Verdict:
+        """A verdict on the sites it watches as one on all sites, with an alarm.
+
+        Raises
+        ------
+        DesignError
+            It is none.
+        """
         self._check(verdict)
         declared = self._spread(verdict)
         alarm = verdict.alarm
         if alarm is None:
             alarm = np.where(total(declared * 1.0) > 0.0, 1.0, 0.0)
-        return after, replace(verdict, declared=declared, alarm=alarm, estimate=self._sizes(verdict))
+        return replace(verdict, declared=declared, alarm=alarm, estimate=self._sizes(verdict))
 
     def _check(self, verdict: Any) -> None:
         """Refuse what is no verdict of this detector.
@@ -77,14 +107,11 @@ class Adapted:
             raise DesignError("a detector with isolates = False gives an alarm and declares no sites (declared=None)")
         if verdict.alarm is not None:
             shapes["alarm"] = (verdict.alarm, n_cases)
-        if (verdict.estimate is None) != (self.estimates is None):
-            raise DesignError(
-                "a detector that gives an estimate says of what, and one that says so gives it: estimates = 'sites', the name "
-                f"of a voted signal, or None; it says {self.estimates!r}"
-            )
+        self.require_announced(verdict.estimate)
         if self.estimates is not None:
             of_sites = (len(self.watches),) if self.estimates == "sites" else ()
             shapes["estimate"] = (verdict.estimate, (*of_sites, *n_cases))
+        shapes |= {name: (value, n_cases) for name, value in verdict.signals.items() if np.shape(value) != ()}
         wrong = [
             f"{name} of shape {need}, got {np.shape(value)}"
             for name, (value, need) in shapes.items()
@@ -92,9 +119,27 @@ class Adapted:
         ]
         if wrong:
             raise DesignError(f"a verdict needs {'; '.join(wrong)}")
+        numbers = {name: value for name, (value, _) in shapes.items()} | dict(verdict.signals)
+        odd = [f"{name} is {kind}" for name, value in numbers.items() if (kind := _odd_kind(value))]
+        if odd:
+            raise DesignError(f"a verdict needs real numbers; {', '.join(odd)}")
         if set(verdict.signals) != set(self.recorded):
             raise DesignError(
                 f"recorded announces {sorted(self.recorded)}, the verdict shows {sorted(verdict.signals)}; make them equal"
+            )
+
+    def require_announced(self, estimate: Any) -> None:
+        """Refuse an estimate that nobody announced, and none where one was.
+
+        Raises
+        ------
+        DesignError
+            It is one of both.
+        """
+        if (estimate is None) != (self.estimates is None):
+            raise DesignError(
+                "a detector that gives an estimate says of what, and one that says so gives it: estimates = 'sites', the name "
+                f"of a voted signal, or None; it says {self.estimates!r}"
             )
 
     def _spread(self, verdict: Verdict) -> Rows:
@@ -113,3 +158,9 @@ class Adapted:
             return watched
         rows = dict(zip(self.watches, watched, strict=True))
         return np.stack([rows[name] * 1.0 if name in rows else np.zeros_like(like) for name in self.bus.names])
+
+
+def _odd_kind(value: Any) -> str:
+    """Name of a dtype that holds no real numbers; "" for one that does."""
+    dtype = value.dtype if hasattr(value, "dtype") else np.asarray(value).dtype
+    return "" if dtype.kind in "bfiu" else str(dtype)

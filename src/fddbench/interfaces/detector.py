@@ -5,14 +5,14 @@ from dataclasses import dataclass, field
 from types import SimpleNamespace
 from typing import Any, Protocol, runtime_checkable
 
-from fddbench.blocks.layout import Layout, Row, Rows
+from fddbench.blocks.layout import Row, Rows
 
 __all__ = ["Detector", "Tunable", "Verdict", "Voter"]
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """What a detector decides at one sample.
+    """What a detector decides at one sample; one that sees one flight at a time gives numbers instead of rows.
 
     Attributes
     ----------
@@ -42,17 +42,48 @@ class Detector(Protocol):
     A class registered under ``fddbench.detectors`` has besides: ``Gains``, the pydantic model of its numbers, and
     ``from_design(gains, bus)``, which makes the detector for a bus or raises `DesignError`.
 
-    It may have more, and has these otherwise: ``watches``, the names of the sites it declares (all sites of the bus);
-    ``isolates`` (True; False for one that only detects); ``estimates``, what `Verdict.estimate` is of (None: it gives none):
-    "sites", or the name of a voted signal; ``constants`` and ``draws`` (none): a detector that has them is a full block,
-    with ``start(c)`` and ``step(x, c, n, measured)``.
+    It may have more, and has these otherwise: ``recorded``, the names of what its verdicts show (()); ``watches``, the names
+    of the sites it declares (all sites of the bus); ``isolates`` (True; False for one that only detects); ``estimates``, what
+    `Verdict.estimate` is of (None: it gives none): "sites", or the name of a voted signal; ``constants`` and ``draws`` (none):
+    a detector that has them is a full block, with ``start(c)`` and ``step(x, c, n, measured)``.
+
+    **Rows.** With ``states``, a `Layout`, a step is a function on rows that is compiled, see `fddbench.interfaces`.
+
+    **Ordinary Python.** Without ``states``, or where the step cannot be compiled, a detector sees one flight at a time: a
+    signal of the bus is a float, one of several rows a read-only 1-D array. ``start()`` gives the state of one flight, an
+    object of any kind, new at every call; it comes back to ``step(state, measured)``, which gives ``(state, Verdict)`` and may
+    change the state in place. In the verdict ``declared`` is a list or array of numbers or booleans, one a watched site,
+    ``residual``, ``alarm`` and each signal is a number, ``estimate`` a number or a list. Whatever a step raises becomes the
+    reason of the row. Nothing may be kept but in the state: before all others some flights are flown twice, by the detector
+    that flew before and by a new one, and a detector that decides otherwise is refused.
+
+    **batched = True**, beside ``states``: a step on rows that cannot be compiled sees many flights side by side all the same.
+    It may not mix them, which is tried as well.
+
+    Examples
+    --------
+    >>> class Range:  # declares a sensor, for good, that has been far from the voted signal for five samples
+    ...     def start(self):
+    ...         return {"count": [0, 0, 0], "declared": [False] * 3}
+    ...
+    ...     def step(self, state, measured):
+    ...         distances = [abs(r - measured.r_voted_deg_s) for r in measured.r_deg_s]
+    ...         for i, distance in enumerate(distances):
+    ...             state["count"][i] = state["count"][i] + 1 if distance > 0.5 else 0
+    ...             if state["count"][i] == 5:
+    ...                 state["declared"][i] = True
+    ...         return state, Verdict(state["declared"], max(distances) / 0.5)
+    >>> now = SimpleNamespace(r_deg_s=[0.1, 0.0, 2.1], r_voted_deg_s=0.1)
+    >>> detector = Range()
+    >>> state = detector.start()
+    >>> for _ in range(5):
+    ...     state, verdict = detector.step(state, now)
+    >>> verdict.declared, verdict.residual
+    ([False, False, True], 4.0)
     """
 
-    states: Layout[Any]
-    recorded: tuple[str, ...]
-
     def start(self) -> Any:
-        """State before the first sample, a record of `states`; plain numbers, since every flight starts alike."""
+        """State before the first sample: of every flight, plain numbers in a record of `states`; or of one flight, anything."""
         ...
 
     def step(self, x: Any, measured: SimpleNamespace) -> tuple[Any, Verdict]:

@@ -1,16 +1,17 @@
 """From a campaign to what flies it."""
 
+from dataclasses import replace
 from typing import Any
 
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.plan import Plan, plan
-from fddbench.designs.adapted import Adapted
 from fddbench.designs.building import build_detectors
 from fddbench.errors import FddbenchError, place_of, reason_of
 from fddbench.interfaces import Loop, Options
 from fddbench.metrics.scoring import Scoring
 from fddbench.plugin_files import noticed_reads
 from fddbench.runner.assembly import Assembly
+from fddbench.runner.firsts import first_samples
 from fddbench.runner.soundness import require_sound
 
 __all__ = ["assemble", "loop_of"]
@@ -66,14 +67,10 @@ def assemble(campaign: Campaign) -> Assembly:
     planned = plan(campaign)
     loop = loop_of(planned)
     n_faults = max((len(scenario.faults) for scenario in planned.scenarios), default=0)
-    found = build_detectors(campaign.designs, loop.bus)
-    assembly = Assembly(
-        plan=planned,
-        loop=loop,
-        detectors={name: Adapted(detector, loop.bus) for name, detector in found.items()},
-        scoring=Scoring(loop.bus.names, n_faults, campaign.sample_s),
-    )
+    scoring = Scoring(loop.bus.names, n_faults, campaign.sample_s)
+    assembly = Assembly(plan=planned, loop=loop, detectors={}, scoring=scoring)
     faults = [fault for scenario in campaign.scenarios for fault in scenario.faults]
     if any(map(_foreign, (campaign.bench, campaign.plant, loop, *campaign.chosen.values(), *faults))):
         require_sound(assembly)
-    return assembly
+    found = build_detectors(campaign.designs, loop.bus, lambda: first_samples(assembly))
+    return replace(assembly, detectors=found)

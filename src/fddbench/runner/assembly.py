@@ -1,7 +1,7 @@
 """What flies the cases of a campaign: its closed loop, its detectors, and batches of cases with all their constants."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -154,6 +154,17 @@ class Assembly:
             for i in np.flatnonzero((drawn < limit.low) | (drawn > limit.high)).tolist():
                 reasons[i] = f"drawn {limit.name} {drawn[i]:g} lies outside {limit.low:g} to {limit.high:g}"
         return reasons
+
+    def ends(self, batch: Batch) -> Floats:
+        """Last sample of each flight of a batch, (n_cases,)."""
+        last: Floats = self.scoring.constants.unpack(batch.score_constants).last
+        return last
+
+    def shortened(self, batch: Batch, last: Floats | float) -> Batch:
+        """The same batch, flown and scored only to these samples."""
+        named = self.scoring.constants.unpack(rows := batch.score_constants.copy())
+        named.last[...] = np.minimum(named.last, last)
+        return replace(batch, score_constants=rows)
 
     def nothing_scored(self, batch: Batch, scoring: Scoring) -> Floats:
         """Score of a detector that saw nothing of a batch, (n_score, n_cases)."""

@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from fddbench.campaign.plan import Plan
 
-__all__ = ["CHUNK", "COMPILED_CHUNK", "cut", "expand", "missing", "spans"]
+__all__ = ["CHUNK", "COMPILED_CHUNK", "OPAQUE_CHUNK", "cut", "expand", "missing", "spans"]
 
 Cases = npt.NDArray[np.int64]
 Spans = tuple[tuple[int, int], ...]
@@ -17,6 +17,10 @@ CHUNK = 256
 
 COMPILED_CHUNK = 1024
 """Cases of one shard when compiled code flies them, a vector of cases at a time: few enough that all workers have some."""
+
+
+OPAQUE_CHUNK = 64
+"""Cases of one shard when detectors of ordinary Python fly them one by one: wide enough to hide the cost of scoring."""
 
 
 def cut(plan: Plan, cases: Cases, *, size: int, jobs: int) -> list[Cases]:

@@ -6,13 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from fddbench.blocks.layout import Nothing
-from fddbench.errors import reason_of
-from fddbench.interfaces import NEVER, Floats, Sample
+from fddbench.blocks.layout import Nothing, Rows
+from fddbench.designs.adapted import Adapted
+from fddbench.interfaces import NEVER, Floats, Sample, Verdict
 from fddbench.runner.assembly import Assembly, Batch
 from fddbench.runner.fused import shown
+from fddbench.runner.verdicts import verdicts_of
 
-__all__ = ["DetectorFlight", "fly_eagerly"]
+__all__ = ["DetectorFlight", "feed_eagerly", "fly_eagerly"]
 
 _TILE = 50
 """Samples whose random numbers are drawn together; no part of any result."""
@@ -21,8 +22,8 @@ _TILE = 50
 class DetectorFlight:
     """One detector on one batch, fed with measured signals sample by sample.
 
-    A step that raises ends the detector's flight here; `finish` then flies it again in ever smaller company, so that a
-    case's row does not depend on it.
+    A step of many flights that raises ends the detector's flight here; `finish` then flies it again in ever smaller company,
+    so that a case's row does not depend on it.
 
     Parameters
     ----------
@@ -37,40 +38,59 @@ class DetectorFlight:
     alone : bool
         Whether a case flown alone here is the last word. Signals recorded from compiled flights show not-a-number after a
         departure, so what raises on them is flown again.
+    hear : bool
+        Whether every verdict is kept in `heard`, (n, n_cases) rows called `names` a sample; not-a-number where a flight has
+        raised.
     """
 
     def __init__(
-        self, assembly: Assembly, name: str, batch: Batch, recorded: Sequence[str] = (), *, alone: bool = True
+        self,
+        assembly: Assembly,
+        name: str,
+        batch: Batch,
+        recorded: Sequence[str] = (),
+        *,
+        alone: bool = True,
+        hear: bool = False,
     ) -> None:
-        self.assembly, self.name, self.batch, self.alone = assembly, name, batch, alone
+        self.assembly, self.name, self.batch = assembly, name, batch
         self.detector, self.scoring, n_cases = assembly.detectors[name], assembly.scoring_of[name], len(batch.cases)
         self.constants = self.scoring.constants.unpack(batch.score_constants)
         self.score = self.scoring.states.spread(self.scoring.start(self.constants), n_cases)
-        self.raised = ""
         self.kept: dict[str, list[Floats]] = {full: [] for full in recorded if full.startswith(f"{name}:")}
-        try:
-            self.state = self.detector.states.spread(self.detector.start(Nothing()), n_cases)
-        except (Exception, SystemExit) as error:  # a user's detector may raise anything; it becomes a row
-            self.raised = reason_of(error)
+        self.verdicts = verdicts_of(self.detector, n_cases)
+        self.hear, self.heard = hear, list[Floats]()
+        self.names = _names(self.detector)
+        self.last_word = self.detector.one_by_one or (n_cases == 1 and alone)
+
+    @property
+    def over(self) -> bool:
+        """Whether every flight has raised."""
+        return all(self.verdicts.raised)
 
     def step(self, seen: Sample, sample: float, departed: Floats) -> None:
         """Verdict on what is measured at one sample, scored."""
-        if self.raised or not (sample < departed).any():
+        active = (sample < departed) & (sample <= self.constants.last)
+        if self.over or not active.any():
             return
-        n_cases = len(self.batch.cases)
-        try:
-            after, verdict = self.detector.step(self.state, Nothing(), self._drawn(int(sample)), seen.measured)
-            self.detector.states.check(after, n_cases)
-            actual, alive = self.scoring.actual(seen), sample < departed
-            self.score, number = self.scoring.step(
-                self.score, self.constants, Nothing(), verdict, actual, sample, alive
-            )
-            self.state = after
-            shows = shown(verdict, number) if self.kept else {}
-            for full, rows in self.kept.items():
-                rows.append(np.broadcast_to(np.asarray(shows[full.split(":", 1)[1]], dtype=float), (n_cases,)))
-        except (Exception, SystemExit) as error:  # a user's detector may raise anything; it becomes a row
-            self.raised = reason_of(error)
+        verdict = self.verdicts.step(self._drawn(int(sample)), seen.measured, active)
+        if verdict is not None:
+            self._score(verdict, self.scoring.actual(seen), sample, departed)
+
+    def _score(self, verdict: Verdict, actual: Rows, sample: float, departed: Floats) -> None:
+        """Score of one more sample."""
+        alive = sample < departed
+        self.score, number = self.scoring.step(self.score, self.constants, Nothing(), verdict, actual, sample, alive)
+        if not self.kept and not self.hear:
+            return
+        shows, flying = shown(verdict, number), np.array([not raised for raised in self.verdicts.raised])
+        if self.hear:
+            estimate = () if verdict.estimate is None else tuple(np.atleast_2d(verdict.estimate))
+            signals = [shows[name] for name in self.detector.recorded]
+            rows = [*verdict.declared, verdict.alarm, verdict.residual, *estimate, *signals]
+            self.heard.append(np.array([np.where(flying, row, np.nan) for row in rows]))
+        for full, kept in self.kept.items():
+            kept.append(np.where(flying, np.asarray(shows[full.split(":", 1)[1]], dtype=float), np.nan))
 
     def _drawn(self, sample: int) -> Any:
         """Random numbers of the detector at a sample, by name."""
@@ -81,12 +101,17 @@ class DetectorFlight:
 
     def finish(self) -> tuple[Floats, list[str]]:
         """Final score, (n_score, n_cases), and what was raised for each case ("": nothing)."""
-        n_cases = len(self.batch.cases)
-        if not self.raised or (n_cases == 1 and self.alone):
-            return self.scoring.states.pack(self.score, n_cases), [self.raised] * n_cases
+        n_cases, raised = len(self.batch.cases), self.verdicts.raised
+        if self.last_word or not any(raised):
+            return self.scoring.states.pack(self.score, n_cases), [each[0] if each else "" for each in raised]
         # halves, so that the sound cases of a large batch still fly side by side
         halves = [half for half in np.array_split(np.arange(n_cases), 2) if len(half)]
-        parts = [_fly(self.assembly, self.batch.take(half), [self.name], ())[2][0].finish() for half in halves]
+        parts = []
+        for half in halves:
+            batch = self.batch.take(half)
+            again = DetectorFlight(self.assembly, self.name, batch)
+            feed_eagerly(self.assembly, batch, [again], until_over=True)
+            parts.append(again.finish())
         return np.concatenate([score for score, _ in parts], axis=1), [text for _, texts in parts for text in texts]
 
     def tape(self, n_time: int) -> dict[str, Floats]:
@@ -99,11 +124,21 @@ class DetectorFlight:
         return found
 
 
+def _names(detector: Adapted) -> tuple[str, ...]:
+    """What a verdict says, row by row."""
+    sites = detector.bus.names
+    of = {None: (), "sites": tuple(f"estimate of {site}" for site in sites)}
+    estimates = of.get(detector.estimates, (f"estimate of {detector.estimates}",))
+    return (*(f"declaration of {site}" for site in sites), "alarm", "residual", *estimates, *detector.recorded)
+
+
 def fly_eagerly(
-    assembly: Assembly, batch: Batch, recorded: Sequence[str] = ()
+    assembly: Assembly, batch: Batch, recorded: Sequence[str] = (), names: Sequence[str] | None = None
 ) -> tuple[dict[str, Floats], Floats, dict[str, list[str]], dict[str, Floats]]:
-    """Scores, departures, errors and recordings of a batch; all detectors, no compiler."""
-    departed, tape, flights = _fly(assembly, batch, list(assembly.detectors), recorded)
+    """Scores, departures, errors and recordings of a batch; all detectors or those named, no compiler."""
+    flown = assembly.detectors if names is None else names
+    flights = [DetectorFlight(assembly, name, batch, recorded) for name in flown]
+    departed, tape = feed_eagerly(assembly, batch, flights, recorded)
     scores, errors = {}, {}
     for flight in flights:
         scores[flight.name], errors[flight.name] = flight.finish()
@@ -115,14 +150,21 @@ def fly_eagerly(
     return scores, departed, errors, {name: np.where(beyond, np.nan, rows) for name, rows in tape.items()}
 
 
-def _fly(
-    assembly: Assembly, batch: Batch, names: Sequence[str], recorded: Sequence[str]
-) -> tuple[Floats, dict[str, Floats], list[DetectorFlight]]:
-    """Departures, recordings of the loop, and the flights of the named detectors."""
+def feed_eagerly(
+    assembly: Assembly,
+    batch: Batch,
+    flights: Sequence[DetectorFlight],
+    recorded: Sequence[str] = (),
+    *,
+    until_over: bool = False,
+) -> tuple[Floats, dict[str, Floats]]:
+    """Fly the loop and show it to detectors; departures, and recordings of the loop.
+
+    With `until_over` it stops when all detectors have raised; then not every departure is known.
+    """
     loop = assembly.loop
     state, constants = loop.states.unpack(batch.state), loop.constants.unpack(batch.constants)
     departed = np.full(len(batch.cases), NEVER)
-    flights = [DetectorFlight(assembly, name, batch, recorded) for name in names]
     kept: dict[str, list[Floats]] = {
         full: [] for full in recorded if full.split(":")[0] in ("measured", "truth", "voted", "added", "departed")
     }
@@ -137,9 +179,9 @@ def _fly(
                 for flight in flights:
                     flight.step(seen, sample, departed)
                 _keep(kept, seen, departed)
-                if flights and not recorded and all(flight.raised for flight in flights):
-                    return departed, {}, flights
-    return departed, {full: np.array(rows) for full, rows in kept.items()}, flights
+                if until_over and all(flight.over for flight in flights):
+                    return departed, {}
+    return departed, {full: np.array(rows) for full, rows in kept.items()}
 
 
 def _protect(measured: SimpleNamespace) -> None:

@@ -1,6 +1,6 @@
 """Flies batches: compiled where llvmlite is, else with NumPy; the same bits either way."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from types import SimpleNamespace
@@ -8,11 +8,13 @@ from types import SimpleNamespace
 import numpy as np
 
 from fddbench.blocks import kernel, llvm
+from fddbench.blocks.flown import Flown
 from fddbench.interfaces import Floats, Sample
 from fddbench.metrics.scoring import Scoring
 from fddbench.runner.assembly import Assembly, Batch
-from fddbench.runner.eager import DetectorFlight, fly_eagerly
-from fddbench.runner.fused import Fused, why_opaque
+from fddbench.runner.eager import DetectorFlight, feed_eagerly, fly_eagerly
+from fddbench.runner.fused import Fused
+from fddbench.runner.given_up import GivenUp
 
 __all__ = ["Flyer", "Outcome"]
 
@@ -57,23 +59,26 @@ class Flyer:
         What flies.
     backend : {"auto", "llvm", "numpy"}
         ``auto`` compiles where llvmlite is installed.
+    given_up : mapping of str to GivenUp
+        Detectors that are not flown any more.
     """
 
-    def __init__(self, assembly: Assembly, backend: str = "auto") -> None:
-        self.assembly = assembly
+    def __init__(
+        self, assembly: Assembly, backend: str = "auto", given_up: Mapping[str, GivenUp] | None = None
+    ) -> None:
+        self.assembly, self.backend, self.given_up = assembly, backend, given_up or {}
         self.compiled = backend == "llvm" or (backend == "auto" and llvm.available())
 
     @cached_property
     def opaque(self) -> dict[str, str]:
         """Detectors that cannot be compiled, and why; they fly in Python on recorded signals."""
-        bus = self.assembly.loop.bus
-        reasons = {name: why_opaque(detector, bus) for name, detector in self.assembly.detectors.items()}
+        reasons = {name: own.opaque for name, own in self.assembly.detectors.items() if name not in self.given_up}
         return {name: reason for name, reason in reasons.items() if reason}
 
     @cached_property
     def fused(self) -> Fused:
         """Step of everything that can be compiled."""
-        return Fused.of(self.assembly, tuple(name for name in self.assembly.detectors if name not in self.opaque))
+        return Fused.of(self.assembly, tuple(name for name, own in self.assembly.detectors.items() if not own.opaque))
 
     @lru_cache(maxsize=4)  # noqa: B019  (a flyer lives as long as its process)
     def kernel(self, recorded: tuple[str, ...]) -> kernel.Kernel:
@@ -90,10 +95,25 @@ class Flyer:
 
     def fly(self, batch: Batch, recorded: Sequence[str] = ()) -> Outcome:
         """Fly all cases of a batch, each to its own end."""
-        if not self.compiled:
-            scores, departed, errors, tape = fly_eagerly(self.assembly, batch, recorded)
-            return Outcome(batch=batch, scores=scores, departed=departed, errors=errors, recorded=tape)
-        return self._fly_compiled(batch, tuple(recorded))
+        if self.compiled:
+            outcome = self._fly_compiled(batch, tuple(recorded))
+        else:
+            names = [name for name in self.assembly.detectors if name not in self.given_up]
+            scores, departed, errors, tape = fly_eagerly(self.assembly, batch, recorded, names)
+            outcome = Outcome(batch=batch, scores=scores, departed=departed, errors=errors, recorded=tape)
+        for name, given in self.given_up.items():
+            outcome.scores[name] = self.assembly.nothing_scored(batch, self.assembly.scoring_of[name])
+            outcome.errors[name] = [given.reason(case) for case in batch.cases.tolist()]
+        return outcome
+
+    def feed(self, batch: Batch, flights: Sequence[DetectorFlight]) -> None:
+        """Fly a batch and show it to these flights of detectors, until all of them have raised."""
+        if self.compiled:
+            for _ in self._tiles(batch, self._needed(()), flights):
+                if all(flight.over for flight in flights):
+                    return
+        else:
+            feed_eagerly(self.assembly, batch, flights, until_over=True)
 
     def _needed(self, recorded: tuple[str, ...]) -> tuple[str, ...]:
         """Outputs to store: those asked for, and the measured bus where an opaque detector reads it."""
@@ -110,24 +130,13 @@ class Flyer:
 
     def _fly_compiled(self, batch: Batch, recorded: tuple[str, ...]) -> Outcome:
         assembly, fused = self.assembly, self.fused
-        state, constants = fused.packed(batch)
-        samples = assembly.scoring.constants.unpack(batch.score_constants).last.astype(np.int64) + 1
-        addresses = kernel.Addresses(
-            key=assembly.plan.campaign.seed, run=batch.run, flight=assembly.plan.stream, scenario=batch.scenario_stream
-        )
         needed = self._needed(recorded)
-        compiled, end = self.kernel(needed), int(samples.max())
         opaque = [DetectorFlight(assembly, name, batch, recorded, alone=False) for name in self.opaque]
         kept: dict[str, list[Floats]] = {name: [] for name in needed if name in recorded}
-        step = _TILE if needed else end
-        for first in range(0, end, step):
-            flown = compiled.fly(state, constants, samples, addresses, first=first, end=min(first + step, end))
-            state, samples = flown.state, flown.samples
+        for flown in self._tiles(batch, needed, opaque):
             for name, parts in kept.items():
                 parts.append(flown.recorded[name])
-            if opaque:
-                self._show(opaque, flown.recorded, first=first)
-        x = fused.states.unpack(state)
+        x = fused.states.unpack(flown.state)
         outcome = Outcome(
             batch=batch,
             scores={name: fused.scoring[i].states.pack(x.scores[i]) for i, name in enumerate(fused.detectors)},
@@ -136,8 +145,25 @@ class Flyer:
         )
         for flight in opaque:
             outcome.scores[flight.name], outcome.errors[flight.name] = flight.finish()
-            outcome.recorded |= flight.tape(end)
+            outcome.recorded |= flight.tape(int(assembly.ends(batch).max()) + 1)
         return outcome
+
+    def _tiles(self, batch: Batch, needed: tuple[str, ...], flights: Sequence[DetectorFlight]) -> Iterator[Flown]:
+        """Fly a batch, stretch by stretch where outputs are needed, and show each to flights of detectors."""
+        assembly, compiled = self.assembly, self.kernel(needed)
+        state, constants = self.fused.packed(batch)
+        samples = assembly.ends(batch).astype(np.int64) + 1
+        addresses = kernel.Addresses(
+            key=assembly.plan.campaign.seed, run=batch.run, flight=assembly.plan.stream, scenario=batch.scenario_stream
+        )
+        end = int(samples.max())
+        step = _TILE if needed else end
+        for first in range(0, end, step):
+            flown = compiled.fly(state, constants, samples, addresses, first=first, end=min(first + step, end))
+            state, samples = flown.state, flown.samples
+            if flights:
+                self._show(flights, flown.recorded, first=first)
+            yield flown
 
     def _show(self, opaque: Sequence[DetectorFlight], recorded: Mapping[str, Floats], *, first: int) -> None:
         """Feed opaque detectors with a tile of recorded signals; flights that have ended show not-a-number."""

@@ -1,7 +1,6 @@
 """Everything that can be traced, in one step: loop, detectors and their scores, ready for a kernel."""
 
 from collections.abc import Hashable, Mapping
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -11,54 +10,17 @@ from fddbench.blocks.drawn import Draws
 from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, leaves, mapped, record
 from fddbench.blocks.program import Program, trace
 from fddbench.designs.adapted import Adapted
-from fddbench.errors import DesignError, FddbenchError, reason_of
-from fddbench.interfaces import NEVER, Bus, Floats, Loop, Sample, Verdict
+from fddbench.interfaces import NEVER, Floats, Loop, Sample, Verdict
 from fddbench.metrics.score import ScoreConstants, ScoreState
 from fddbench.metrics.scoring import Scoring
 from fddbench.runner.assembly import Assembly, Batch
 
-__all__ = ["Fused", "detector_program", "shown", "why_opaque"]
+__all__ = ["Fused", "shown"]
 
 
 def shown(verdict: Verdict, number: Row) -> dict[str, Row]:
     """All there is to record of a verdict: number of declared sites, alarm, residual, and what the detector shows."""
     return {"n_declared": number, "alarm": verdict.alarm, "residual": verdict.residual, **verdict.signals}
-
-
-def detector_program(detector: Adapted, bus: Bus) -> Program:
-    """One step of a detector alone as a program with the inputs ``state``, ``normals`` and the signals of the bus.
-
-    Raises
-    ------
-    Exception
-        Whatever its step raises on traced values.
-    """
-
-    def step(state: Rows, normals: Rows, **signals: Rows) -> Mapping[str, Rows]:
-        before = {name: value.ids.copy() for name, value in signals.items()}
-        x, n = detector.states.unpack(state), detector.draws.unpack(normals)
-        after, verdict = detector.step(x, Nothing(), n, SimpleNamespace(**signals))
-        if any((signals[name].ids != ids).any() for name, ids in before.items()):
-            raise DesignError("its step writes into measured signals, which are everybody's; copy them first")
-        rows = {"declared": verdict.declared, "alarm": verdict.alarm, "residual": verdict.residual}
-        return {"state": detector.states.pack(after), **rows, **verdict.signals}
-
-    return trace(step, state=detector.states.size, normals=detector.draws.size, **bus.signals)
-
-
-def why_opaque(detector: Adapted, bus: Bus) -> str:
-    """Why a detector cannot be traced, in one line; "" when it can.
-
-    A step that keeps something between two calls gives two different programs, and is opaque for that.
-    """
-    try:
-        if detector_program(detector, bus).hash != detector_program(detector, bus).hash:
-            return "its step keeps something between two calls"
-    except FddbenchError as error:
-        return " ".join(str(error).split())
-    except (Exception, SystemExit) as error:  # a user's step may raise anything on values that are not arrays
-        return reason_of(error)
-    return ""
 
 
 @record

@@ -1,7 +1,7 @@
 """What a detector costs on a flight computer: its step counted, and timed on this machine."""
 
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any
@@ -13,8 +13,9 @@ from fddbench.blocks.accounting import Cost, cost
 from fddbench.blocks.layout import Nothing, Rows
 from fddbench.blocks.program import trace
 from fddbench.designs.adapted import Adapted
+from fddbench.designs.tracing import detector_program
 from fddbench.interfaces import Bus
-from fddbench.runner.fused import detector_program, why_opaque
+from fddbench.runner.verdicts import verdicts_of
 
 __all__ = ["DetectorLoad", "detector_load", "in_words", "seconds_in_python"]
 
@@ -42,9 +43,8 @@ class DetectorLoad:
 
 def detector_load(detector: Adapted, bus: Bus, *, timed: bool = True) -> DetectorLoad:
     """Count the operations of one step, and time it unless told not to."""
-    reason = why_opaque(detector, bus)
-    if reason:
-        return DetectorLoad(cost=None, nanoseconds=None, opaque=reason)
+    if detector.opaque:
+        return DetectorLoad(cost=None, nanoseconds=None, opaque=detector.opaque)
     nanoseconds = _nanoseconds(detector, bus) if timed and llvm.available() else None
     program = detector_program(detector, bus).keep("state", "declared", "alarm", "residual")
     return DetectorLoad(cost=cost(program), nanoseconds=nanoseconds)
@@ -92,19 +92,26 @@ def in_words(load: DetectorLoad) -> str:
     )
 
 
-def seconds_in_python(detector: Adapted, bus: Bus, n_cases: int) -> float:
-    """Time of one step of so many flights side by side in Python [s], the fastest of several; infinite if it raises."""
-    state = detector.states.spread(detector.start(Nothing()), n_cases)
-    normals = detector.draws.unpack(np.zeros((detector.draws.size, n_cases)))
-    best = np.inf
-    for trial in range(_REPEATS):
-        shapes = {name: (rows, n_cases) if rows else (n_cases,) for name, rows in bus.signals.items()}
-        measured = SimpleNamespace(**{name: np.full(shape, 0.1 * trial) for name, shape in shapes.items()})
+def seconds_in_python(detector: Adapted, samples: Sequence[SimpleNamespace]) -> float:
+    """Time of one step in Python on real samples [s]: of one flight for a detector that sees one at a time, else of all.
+
+    The mean over the samples, the fastest of several repeats; infinite if it raises on every flight.
+    """
+    n_cases = len(next(iter(vars(samples[0]).values())).T)
+    flights = range(n_cases) if detector.one_by_one else range(1)
+    with np.errstate(all="ignore"):
+        return min(
+            (_mean_seconds(detector, samples, n_cases, i) for i in flights for _ in range(_REPEATS)), default=np.inf
+        )
+
+
+def _mean_seconds(detector: Adapted, samples: Sequence[SimpleNamespace], n_cases: int, flight: int) -> float:
+    """Mean time of a step [s]; infinite if it raises."""
+    active, drawn = np.zeros(n_cases, dtype=bool), detector.draws.unpack(np.zeros((detector.draws.size, n_cases)))
+    active[flight] = True
+    verdicts, spent = verdicts_of(detector, n_cases), 0.0
+    for measured in samples:
         clock_s = time.perf_counter()
-        try:
-            with np.errstate(all="ignore"):
-                state, _ = detector.step(state, Nothing(), normals, measured)
-        except (Exception, SystemExit):  # it becomes a row when it flies
-            return np.inf
-        best = min(best, time.perf_counter() - clock_s)
-    return best
+        verdicts.step(drawn, measured, active)
+        spent += time.perf_counter() - clock_s
+    return np.inf if verdicts.raised[flight] else spent / len(samples)

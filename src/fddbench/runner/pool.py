@@ -11,14 +11,15 @@ from typing import Any
 from fddbench.errors import FddbenchError
 from fddbench.results.manifest import Shard
 from fddbench.runner.chunks import Spans
+from fddbench.runner.given_up import GivenUps
 from fddbench.runner.work import fly_and_write
 
 __all__ = ["fly_all"]
 
 _ATTEMPTS = 3
 _SAFE_PATH = "PYTHONSAFEPATH"
-Work = tuple[str, str, str]
-"""Folder of results, the fingerprint of what flies and the back end."""
+Work = tuple[str, str, str, GivenUps]
+"""Folder of results, the fingerprint of what flies, the back end, and the detectors that are given up."""
 
 
 def fly_all(work: Work, chunks: Sequence[Spans], *, jobs: int, threads: bool) -> Generator[Shard, None, None]:

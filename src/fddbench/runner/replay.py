@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +13,7 @@ from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.plan import PlannedScenario
 from fddbench.interfaces import Floats, Recording
 from fddbench.runner.assembling import assemble
-from fddbench.runner.assembly import Assembly, Batch
+from fddbench.runner.assembly import Batch
 from fddbench.runner.fingerprint import frozen
 from fddbench.runner.flight import Flyer
 
@@ -113,7 +112,7 @@ def _record(
     kept = [f"{source}:{name}" for name, source in sources.items() if signals is None or name in asked]
     shown = {name: ("n_declared", "residual", *detector.recorded) for name, detector in assembly.detectors.items()}
     kept += [f"{detector}:{name}" for detector, names in shown.items() for name in names]
-    found = flyer.fly(_shortened(assembly, batch, last), kept).recorded
+    found = flyer.fly(assembly.shortened(batch, float(last)), kept).recorded
     return Recording(
         scenario=planned.name,
         cases=assembly.plan.names(batch.cases),
@@ -128,13 +127,6 @@ def _record(
             name: {signal: found[f"{name}:{signal}"][:, 0] for signal in names} for name, names in shown.items()
         },
     )
-
-
-def _shortened(assembly: Assembly, batch: Batch, last: int) -> Batch:
-    """The same batch, scored and flown only as far as the recording goes."""
-    named = assembly.scoring.constants.unpack(rows := batch.score_constants.copy())
-    named.last[...] = np.minimum(named.last, float(last))
-    return replace(batch, score_constants=rows)
 
 
 def _numbered(recorded: Mapping[str, Floats]) -> Iterator[tuple[str, Floats]]:

@@ -16,10 +16,11 @@ from fddbench.results.folder import claim, refuse_foreign
 from fddbench.results.lock import locked
 from fddbench.results.mending import mend
 from fddbench.runner.assembling import assemble
-from fddbench.runner.chunks import CHUNK, COMPILED_CHUNK, cut, missing, spans
+from fddbench.runner.chunks import CHUNK, COMPILED_CHUNK, OPAQUE_CHUNK, cut, missing, spans
 from fddbench.runner.fingerprint import fingerprint_of, provenance_for
 from fddbench.runner.flight import Flyer
 from fddbench.runner.pool import fly_all
+from fddbench.runner.rehearsal import rehearsed
 from fddbench.runner.work import flyer_of
 
 __all__ = ["Progress", "RunReport", "run_campaign"]
@@ -100,21 +101,22 @@ def run_campaign(
     Raises
     ------
     FddbenchError
-        The design makes no detector, the folder is another campaign's or program's, or is being written.
+        The design makes no detector, or one whose rows depend on more than their flight; the folder is another campaign's or
+        program's, or is being written.
     """
     begun = time.monotonic()
     flyer = Flyer(assemble(campaign), backend)
     plan, fingerprint = flyer.assembly.plan, fingerprint_of(campaign)
-    _tell(flyer, notice)
     refuse_foreign(folder, fresh=fresh)
+    flyer = rehearsed(flyer, notice)
     say = notice or _warned
     with locked(folder, notice=say):
         claim(folder, files=campaign.files(), provenance=provenance_for(plan, fingerprint), fresh=fresh)
         left, told = _left(folder, plan.n_cases, fingerprint.sha256, progress, say)
         told.tell()
-        size = chunk or (COMPILED_CHUNK if flyer.compiled else CHUNK)
+        size = chunk or _chunk(flyer)
         chunks = [spans(part) for part in cut(plan, left, size=size, jobs=jobs)]
-        work = (str(folder), fingerprint.sha256, backend)
+        work = (str(folder), fingerprint.sha256, backend, tuple(flyer.given_up.items()))
         threads = flyer.compiled and not flyer.opaque
         if len(left) and threads:
             flyer_of(*work)
@@ -175,12 +177,11 @@ def _warned(text: str) -> None:
     warn(text, ResultsWarning)
 
 
-def _tell(flyer: Flyer, notice: Callable[[str], None] | None) -> None:
-    """Say which detectors cannot be compiled, and what that costs."""
-    if notice is None or not flyer.compiled:
-        return
-    for name, reason in flyer.opaque.items():
-        notice(f"{name} cannot be compiled and flies in Python, at some 1 ms per sample and chunk: {reason}")
+def _chunk(flyer: Flyer) -> int:
+    """Cases of a chunk; fewer where some detectors fly in Python flight by flight, so that a chunk does not last for hours."""
+    if any(flyer.assembly.detectors[name].one_by_one for name in flyer.opaque):
+        return OPAQUE_CHUNK
+    return COMPILED_CHUNK if flyer.compiled else CHUNK
 
 
 def _fly(folder: Path, shards: Generator[manifest.Shard, None, None], told: _Told) -> bool:

@@ -20,6 +20,7 @@ from fddbench.runner.assembly import Assembly, Batch, has_events
 from fddbench.runner.chunks import Spans, expand, spans
 from fddbench.runner.fingerprint import frozen_to_fly
 from fddbench.runner.flight import Flyer, Outcome
+from fddbench.runner.given_up import GivenUps
 
 __all__ = ["fly_and_write", "flyer_of", "rows_and_events", "rows_of"]
 
@@ -30,23 +31,23 @@ _SHARED = ("scenario", "point", "level", "run", "detector", "status", "reason")
 _making = Lock()
 
 
-def flyer_of(folder: str, fingerprint: str, backend: str) -> Flyer:
+def flyer_of(folder: str, fingerprint: str, backend: str, given_up: GivenUps = ()) -> Flyer:
     """What flies a frozen campaign, made and compiled once per process."""
     with _making:
-        return _flyer(folder, fingerprint, backend)
+        return _flyer(folder, fingerprint, backend, given_up)
 
 
 @lru_cache(maxsize=2)
-def _flyer(folder: str, fingerprint: str, backend: str) -> Flyer:
-    flyer = Flyer(assemble(frozen_to_fly(Path(folder), fingerprint)), backend)
+def _flyer(folder: str, fingerprint: str, backend: str, given_up: GivenUps) -> Flyer:
+    flyer = Flyer(assemble(frozen_to_fly(Path(folder), fingerprint)), backend, dict(given_up))
     flyer.prepare()
     return flyer
 
 
-def fly_and_write(folder: str, fingerprint: str, backend: str, case_spans: Spans) -> Shard:
+def fly_and_write(folder: str, fingerprint: str, backend: str, given_up: GivenUps, case_spans: Spans) -> Shard:
     """Fly the cases and write their shard into the folder of results; everything crosses as plain data."""
     cases = expand(case_spans)
-    rows, events = rows_and_events(flyer_of(folder, fingerprint, backend), cases)
+    rows, events = rows_and_events(flyer_of(folder, fingerprint, backend, given_up), cases)
     name = f"{cases[0]:08d}-{cases[-1]:08d}-{len(cases)}.parquet"
     path = Path(folder)
     events_sha256 = write_table(path / "events" / name, events, fingerprint=fingerprint) if len(events) else None

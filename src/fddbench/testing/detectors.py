@@ -2,7 +2,9 @@
 
 from pathlib import Path
 
+from fddbench.errors import DesignError
 from fddbench.runner.flight import Flyer
+from fddbench.runner.rehearsal import rehearse
 from fddbench.runner.work import rows_and_events
 from fddbench.testing.campaigns import different_bits, require, some_flights
 
@@ -13,7 +15,8 @@ def check_detector(design: str, *, campaign: str | Path = "smoke") -> None:
     """Fly a detector on a few flights of a campaign that feeds it.
 
     Its step gives the same bits in any company and, where it can be compiled, in compiled code; it raises nothing, decides
-    0 or 1, and keeps to the sites that it watches. (That it does not look ahead needs no check: it sees one sample.)
+    0 or 1, and keeps to the sites that it watches. One that cannot be compiled is put through what `fddbench run` puts it
+    through: its verdicts on a flight do not depend on what it flew before, on other flights or on how long the flight lasts.
 
     Parameters
     ----------
@@ -37,8 +40,17 @@ def check_detector(design: str, *, campaign: str | Path = "smoke") -> None:
     detector = assembly.detectors[design]
     unknown = set(detector.watches) - set(assembly.loop.bus.names)
     require(not unknown, f"{design} watches {sorted(unknown)}, which are no sites of this benchmark")
+    _rehearse(Flyer(assembly), design)
     rows, _ = rows_and_events(Flyer(assembly), batch.cases)
     for status, reason in zip(rows["status"].to_pylist(), rows["reason"].to_pylist(), strict=True):
         require(status in {"ok", "infeasible"}, f"{design} ends a flight with {status}: {reason}")
     wrong = different_bits(assembly, batch, [f"{design}:{name}" for name in detector.recorded])
     require(not wrong, f"{design}: {wrong}")
+
+
+def _rehearse(flyer: Flyer, design: str) -> None:
+    try:
+        given_up = rehearse(flyer)
+    except DesignError as error:
+        raise AssertionError(str(error)) from error
+    require(not given_up, f"{design} is {given_up[design].said if given_up else ''}")
