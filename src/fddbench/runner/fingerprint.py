@@ -52,7 +52,7 @@ def provenance_for(plan: Plan, fingerprint: Fingerprint) -> dict[str, object]:
         campaign=campaign.name,
         designs_sha256={design.name: design.sha256 for design in campaign.designs},
         seed=campaign.seed,
-        flights={planned.name: planned.n_runs for planned in plan.scenarios},
+        flights={planned.name: planned.n_cases for planned in plan.scenarios},
         text=campaign.text.encode(),
     )
 
