@@ -1,16 +1,18 @@
-"""The house rules that a machine can hold: room sizes, documented names, registered members."""
+"""The house rules that a machine can hold: room sizes, documented names, registered members, parts addressed by name."""
 
 import ast
 import importlib
 import inspect
 import pkgutil
+import re
 from importlib.metadata import entry_points
 from pathlib import Path
+from typing import get_args
 
 import pytest
 
 import fddbench
-from fddbench import registry
+from fddbench import kinds
 
 SOURCE = Path(fddbench.__file__).parent
 FILES = sorted(SOURCE.rglob("*.py"))
@@ -33,37 +35,123 @@ def test_rooms_are_small(path):
 
 @pytest.mark.parametrize("name", MODULES)
 def test_public_names_are_documented_and_listed(name):
+    """What a module lists is there and says what it is, and so do the methods of its classes."""
     module = importlib.import_module(name)
     assert module.__doc__
-    if name.count(".") > 1 and not name.endswith("__init__"):
-        for public in getattr(module, "__all__", ()):
-            thing = getattr(module, public)
-            if inspect.isfunction(thing) or inspect.isclass(thing):
-                assert inspect.getdoc(thing), f"{name}.{public} has no docstring"
+    listed = getattr(module, "__all__", ())
+    for public in listed:
+        thing = getattr(module, public)
+        if inspect.isfunction(thing) or inspect.isclass(thing):
+            assert inspect.getdoc(thing), f"{name}.{public} has no docstring"
+        if inspect.isclass(thing):
+            for method, found in vars(thing).items():
+                if inspect.isfunction(found) and not method.startswith("_"):
+                    assert inspect.getdoc(found), f"{name}.{public}.{method} has no docstring"
 
 
-@pytest.mark.parametrize("family", registry.FAMILIES)
+ADDRESSES = {
+    "a part is addressed by its name, not by a made one": re.compile(r'getattr\([^,()]+, f"'),
+    "random numbers have names": re.compile(r"normals\[\d+ *:"),
+}
+
+
+@pytest.mark.parametrize("why", ADDRESSES)
+def test_parts_and_numbers_are_addressed_by_name(why):
+    """Only the engine, which knows no names, may do otherwise."""
+    found = [
+        f"{path.relative_to(SOURCE)}: {match[0]}"
+        for path in FILES
+        if path.parent.name != "blocks"
+        for match in ADDRESSES[why].finditer(path.read_text(encoding="utf-8"))
+    ]
+    assert not found
+
+
+SHIPPED = ("benchmark", "fault", "voter", "detector")
+
+
+def test_families_without_a_shipped_member_are_parts_of_a_benchmark():
+    assert set(SHIPPED) <= set(kinds.FAMILIES)
+    chosen = {
+        choice.family for name in kinds.known("benchmark") for choice in kinds.load("benchmark", name).choices.values()
+    }
+    assert set(kinds.FAMILIES) - set(SHIPPED) <= chosen
+
+
+@pytest.mark.parametrize("family", SHIPPED)
 def test_every_member_is_registered_loads_and_says_what_it_is(family):
-    assert registry.kinds(family)
-    for name in registry.kinds(family):
-        member = registry.load(family, name)
+    assert kinds.known(family)
+    for name in kinds.known(family):
+        member = kinds.load(family, name)
         assert inspect.getdoc(member)
-    assert len(entry_points(group=f"fddbench.{family}s")) >= len(registry.kinds(family))
+    assert len(entry_points(group=f"fddbench.{family}s")) >= len(kinds.known(family))
 
 
-def _members(folder: str, apart: set[str]) -> set[str]:
-    paths = (SOURCE / folder).iterdir()
-    return {path.stem for path in paths if not path.name.startswith("_") and path.suffix in ("", ".py")} - apart
+def _parts(path: Path) -> list[str]:
+    """Modules of a package that lie in its folder, as imports write them: ``detection.sliding_mode.observer``."""
+    return [
+        ".".join(("fddbench", *file.relative_to(SOURCE).with_suffix("").parts)).removesuffix(".__init__")
+        for file in sorted(path.rglob("*.py"))
+    ]
 
 
-@pytest.mark.parametrize(
-    ("folder", "family", "apart"),
-    [
-        ("faults", "fault", {"specification", "injection"}),
-        ("voting", "voter", set()),
-        ("benchmarks", "benchmark", set()),
-        ("detection", "detector", {"consolidation", "confirmation", "isolation"}),
-    ],
-)
-def test_every_file_of_a_family_is_registered(folder, family, apart):
-    assert _members(folder, apart) == set(registry.kinds(family))
+def _imports(module: str) -> set[str]:
+    """Modules that a module of the package imports."""
+    path = SOURCE.joinpath(*module.split(".")[1:])
+    file = path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+    found: set[str] = set()
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            found |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+    return found
+
+
+def _used(family: str, parts: set[str]) -> set[str]:
+    """Registered members of a family, and what they import of these modules, and so on."""
+    left = [point.value.split(":")[0] for point in kinds.registered(family).values()]
+    found: set[str] = set()
+    while left:
+        module = left.pop()
+        if module in parts and module not in found:
+            found.add(module)
+            left += _imports(module)
+    return found
+
+
+FAMILY_FOLDERS = [("faults", "fault"), ("voting", "voter"), ("benchmarks", "benchmark"), ("detection", "detector")]
+
+
+@pytest.mark.parametrize(("folder", "family"), FAMILY_FOLDERS)
+def test_every_file_of_a_family_is_registered_or_used_by_one_that_is(folder, family):
+    """What nobody reaches is a member that somebody forgot to register; the loops of benchmarks fly faults and voters."""
+    parts = {name for name in _parts(SOURCE / folder) if name != f"fddbench.{folder}"}
+    loops = _used("benchmark", {name for other, _ in FAMILY_FOLDERS for name in _parts(SOURCE / other)})
+    packages = {name for name in parts if (SOURCE.joinpath(*name.split(".")[1:])).is_dir()}
+    unused = parts - _used(family, parts) - (loops & parts) - {name for name in packages if _holds(name, family)}
+    assert not unused
+
+
+def _holds(package: str, family: str) -> bool:
+    """Whether a folder lies above modules that are reached; its own file says only what they are."""
+    return any(name.startswith(f"{package}.") for name in _used(family, set(_parts(SOURCE))))
+
+
+SHAPES = {**kinds.FAMILIES, "voter": ("about", "vote")}
+
+
+def _members(folder: str, family: str) -> set[type]:
+    """Public classes of a folder that have all that a member needs; kinds of faults know their own name."""
+    found = set()
+    for module in map(importlib.import_module, _parts(SOURCE / folder)):
+        for thing in (getattr(module, name) for name in getattr(module, "__all__", ())):
+            if inspect.isclass(thing) and set(SHAPES[family]) <= set(dir(thing)):
+                own = getattr(thing, "model_fields", {}).get("kind")
+                found |= {thing} if own is None or get_args(own.annotation) else set()
+    return found
+
+
+@pytest.mark.parametrize(("folder", "family"), FAMILY_FOLDERS)
+def test_what_looks_like_a_member_is_registered(folder, family):
+    assert _members(folder, family) == {kinds.load(family, name) for name in kinds.known(family)}

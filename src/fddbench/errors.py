@@ -4,10 +4,12 @@ Every message names the place, what was received, what is allowed and what to do
 ``__init__`` of their own, because only those survive the way back from a worker process.
 """
 
+import sysconfig
 import traceback
 from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
+from pathlib import Path
 
 __all__ = [
     "CampaignError",
@@ -51,7 +53,11 @@ def reason_of(error: BaseException) -> str:
 
 def place_of(error: BaseException) -> str:
     """Innermost line of foreign code that an exception passed, in brackets; "" where it passed none."""
-    frames = [f for f in traceback.extract_tb(error.__traceback__) if "/fddbench/" not in f.filename.replace("\\", "/")]
+    ours = (Path(__file__).parent, *map(Path, (sysconfig.get_path("purelib"), sysconfig.get_path("stdlib"))))
+    every = traceback.extract_tb(error.__traceback__)
+    foreign = [f for f in every if not Path(f.filename).is_relative_to(ours[0])]
+    # a package of somebody else's is installed like NumPy; where nothing lies outside, it is the one
+    frames = [f for f in foreign if not any(Path(f.filename).is_relative_to(folder) for folder in ours)] or foreign
     return f" ({frames[-1].filename}:{frames[-1].lineno})" if frames else ""
 
 

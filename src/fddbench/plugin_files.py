@@ -11,7 +11,7 @@ import re
 import sys
 import traceback
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from hashlib import sha256
 from importlib.machinery import ModuleSpec
@@ -39,12 +39,14 @@ class LoadedClass:
 
 @dataclass(frozen=True)
 class _Loaded:
+    """A module, and the files beside it that it stands on."""
+
     module: ModuleType
-    files: Mapping[str, bytes]
+    others: Mapping[str, bytes]
 
 
-_loaded: dict[str, list[_Loaded]] = {}
-"""By the sha256 of the file: each set of siblings it has been loaded with."""
+_loaded: dict[tuple[str, str], list[_Loaded]] = {}
+"""By the sha256 of the file and its place: each set of siblings it has been loaded with."""
 _lock = RLock()
 
 
@@ -67,32 +69,33 @@ def load_class(name: str, folder: Path) -> LoadedClass:
     path = folder / match[1]
     if not path.is_file() or not path.resolve().is_relative_to(folder.resolve()):
         raise FddbenchError(f"no file {match[1]} in {folder}; a plug-in lies beside the file that names it")
+    text = path.read_bytes()
     with _lock:
-        loaded = _load(path)
+        loaded = _load(path, text)
     if match[2] not in vars(loaded.module):
         names = [each for each, value in vars(loaded.module).items() if _defined_in(value, loaded.module)]
         raise FddbenchError(f"{path} has no {match[2]!r}. It has: {', '.join(names) or 'none'}")
-    return LoadedClass(getattr(loaded.module, match[2]), loaded.files)
+    return LoadedClass(getattr(loaded.module, match[2]), {path.name: text, **loaded.others})
 
 
 def _defined_in(value: Any, module: ModuleType) -> bool:
     return isinstance(value, type) and value.__module__ == module.__name__
 
 
-def _load(path: Path) -> _Loaded:
-    text = path.read_bytes()
+def _load(path: Path, text: bytes) -> _Loaded:
     digest = sha256(text).hexdigest()
-    for known in _loaded.get(digest, ()):  # a second reading is the same class, if its siblings are the same
-        if all(_read(path.parent, name) == content for name, content in known.files.items() if name != path.name):
+    place = (digest, str(path.absolute()))  # a copy elsewhere reads what lies there
+    for known in _loaded.get(place, ()):  # a second reading is the same class, if its siblings are the same
+        if all(_read(path.parent, name) == content for name, content in known.others.items()):
             return known
     siblings = _Siblings(path.parent)
     with siblings, noticed_reads(path.parent) as read:
         # named by content, so that two plug-ins of one file name do not meet
-        module = _executed(path, f"fddbench_plugin_{path.stem}_{digest[:16]}_{len(_loaded.get(digest, ()))}")
+        module = _executed(path, f"fddbench_plugin_{path.stem}_{digest[:16]}_{sum(map(len, _loaded.values()))}")
     names = [*siblings.found, *read, *_declared(module, path)]
-    files = {path.name: text} | {name: _read(path.parent, name) or b"" for name in dict.fromkeys(names)}
-    loaded = _Loaded(module, files)
-    _loaded.setdefault(digest, []).append(loaded)
+    others = {name: _read(path.parent, name) or b"" for name in dict.fromkeys(names) if name != path.name}
+    loaded = _Loaded(module, others)
+    _loaded.setdefault(place, []).append(loaded)
     return loaded
 
 
@@ -108,7 +111,11 @@ def _executed(path: Path, name: str) -> ModuleType:
         del sys.modules[name]
         if isinstance(error, KeyboardInterrupt):
             raise
-        lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
+        lines = [
+            frame.lineno
+            for frame in traceback.extract_tb(error.__traceback__)
+            if Path(frame.filename) == path.absolute()
+        ]
         place = f"{path}:{lines[-1]}" if lines else str(path)
         raise FddbenchError(f"{place} does not run: {reason_of(error)}") from error
     return module
@@ -187,8 +194,9 @@ def _notice(event: str, arguments: tuple[Any, ...]) -> None:
     if event != "open" or not _recorders or not isinstance(arguments[0], str):
         return
     folder, found = _recorders[-1]
-    path = Path(arguments[0]).absolute()
-    if path.suffix in {".py", ".pyc"} or "__pycache__" in path.parts:
-        return
-    if path.is_relative_to(folder) and path.is_file():
-        found.append(str(path.relative_to(folder)))
+    with suppress(OSError, ValueError, RuntimeError):  # an odd name is for `open` to refuse
+        path = Path(arguments[0])
+        path = path.parent.resolve() / path.name  # a link counts where it lies
+        ours = path.suffix in {".py", ".pyc"} or "__pycache__" in path.parts
+        if not ours and path.is_relative_to(folder) and path.is_file():
+            found.append(str(path.relative_to(folder)))

@@ -18,7 +18,7 @@ from fddbench.blocks.linear import affine, column, product
 from fddbench.blocks.lookup import Grid, Lookup
 from fddbench.blocks.program import Program, trace
 from fddbench.campaign.load import read_campaign
-from fddbench.runner.assembly import assemble
+from fddbench.runner.assembling import assemble
 from fddbench.runner.flight import Flyer
 from tests.bench.report import Line
 from tests.bench.step import DT, A

@@ -10,7 +10,7 @@ import pytest
 
 from fddbench.blocks import functions, llvm
 from fddbench.blocks.kernel import Addresses, Compiled, Interpreted, build
-from fddbench.blocks.operations import pick
+from fddbench.blocks.primitives import pick
 from fddbench.blocks.program import Program, trace
 from fddbench.blocks.ring import ring
 from fddbench.errors import FddbenchError

@@ -9,8 +9,8 @@ import pytest
 from fddbench.blocks import functions
 from fddbench.blocks.draws import with_draws
 from fddbench.blocks.lower import Spec, lower
-from fddbench.blocks.operations import gather, locate, rarely
 from fddbench.blocks.plan import INSTRUCTIONS, MEMORY, NOTHING, Instruction, Plan
+from fddbench.blocks.primitives import gather, locate, rarely
 from fddbench.blocks.program import trace
 from fddbench.blocks.repeat import repeat
 from fddbench.blocks.ring import ring

@@ -9,8 +9,8 @@ from fddbench.blocks import functions
 from fddbench.blocks.draws import with_draws
 from fddbench.blocks.kernel import Addresses, build
 from fddbench.blocks.lower import Spec, lower
-from fddbench.blocks.operations import rarely
 from fddbench.blocks.plan import Plan
+from fddbench.blocks.primitives import rarely
 from fddbench.blocks.program import Program, trace
 from fddbench.blocks.repeat import repeat
 

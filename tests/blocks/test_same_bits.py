@@ -8,7 +8,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from fddbench.blocks import functions
-from fddbench.blocks.operations import OPERATIONS, exponent, fraction, gather, locate, pick, power_of_two, rarely
+from fddbench.blocks.operations import OPERATIONS
+from fddbench.blocks.primitives import exponent, fraction, gather, locate, pick, power_of_two, rarely
 from fddbench.blocks.program import trace
 from fddbench.blocks.repeat import repeat
 from fddbench.blocks.table import Table

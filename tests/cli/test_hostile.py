@@ -60,7 +60,7 @@ def line_of(path, words):
         ((START, "return 0.0"), "need a record of the fields ['sum_deg_s', 'declared'], got float", "def start"),
         (
             (START, "return Nothing()"),
-            "need exactly the fields ['sum_deg_s', 'declared'], missing=['declared', 'sum_deg_s'], unknown=[]",
+            "need exactly the fields ['sum_deg_s', 'declared'], missing=['sum_deg_s', 'declared'], unknown=[]",
             "def start",
         ),
         ((START, "return 1 / 0"), "its start is no record of its states: ZeroDivisionError", "return 1 / 0"),

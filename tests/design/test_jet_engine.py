@@ -1,7 +1,5 @@
 """Literature: section 5 of the paper, and the optimum that the paper misses."""
 
-import time
-
 import numpy as np
 import pytest
 
@@ -47,15 +45,6 @@ def test_the_moderate_filter_costs_two_percent(for_identity):
     poles = np.linalg.eigvals(moderate.filter.Ak)
     assert np.abs(poles).max() < 1.0
     assert poles.real.max() < -0.1
-
-
-def test_design_takes_less_than_two_seconds(engine, for_identity):
-    def seconds() -> float:
-        start = time.perf_counter()
-        synthesize(engine, IDENTITY)
-        return time.perf_counter() - start
-
-    assert seconds() < 2.0 or seconds() < 2.0  # a busy machine may take the first
 
 
 def test_sampled_worst_case_comes_close_to_gamma_from_below(for_identity):

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from fddbench.design import solver as solvers
+from fddbench.design import stability
 from fddbench.design.linearised import Freedom
 from fddbench.design.reference_search import normalised, optimize_fixed_poles
 from fddbench.design.robust_hinf import synthesize
@@ -53,11 +54,54 @@ def test_structure_can_save_what_the_ball_cannot(engine):
     assert design.certificate.holds
 
 
+def test_a_blind_feedthrough_to_one_of_several_faults_is_no_reason(engine):
+    """The reference asks little of the fault that is not seen at once: a filter for the others is worth having."""
+    blind = replace(engine, Df=engine.Df * [[1.0, 1.0, 0.0]])
+    reference = StateSpace.gain(np.diag([3.0, 3.0, 0.1]))
+    design = synthesize(blind, reference, relax=None)
+    assert design.certificate.holds
+    assert design.lower_bound <= design.gamma < 0.5 * design.idle_gamma
+
+
+def test_a_structured_delta_that_destabilises_is_shown(engine):
+    strong = replace(engine, FA=20.0 * np.eye(3), EA=np.eye(3), H=np.zeros((3, 3)))
+    blocks = Structured((RepeatedReal(1),) * 3)
+    refused("unstable for a Δ of this structure: Δ = .* gives it a pole with real part", strong, IDENTITY, blocks)
+
+
+def test_multipliers_that_are_not_found_are_no_proof(engine, monkeypatch):
+    monkeypatch.setattr(stability, "_multipliers", lambda *args: False)
+    weak = replace(engine, H=np.array([[0.0, 1.2, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]))
+    blocks = Structured((RepeatedReal(1),) * 3)
+    refused("CLARABEL did not find multipliers .* Lemma 5 is only sufficient", weak, IDENTITY, blocks)
+
+
+def test_a_common_lyapunov_matrix_that_is_not_found_is_no_proof(engine, monkeypatch):
+    vertices = Polytope((engine.at(np.zeros((3, 3))), engine.at(0.5 * np.eye(3))))
+    monkeypatch.setattr(stability, "SOLVED", ())
+    refused("CLARABEL did not find a P ≻ 0 .* and no proof that there is none", engine, IDENTITY, vertices)
+
+
+def test_the_proof_that_there_is_no_common_lyapunov_matrix():
+    """The middle of the first two is unstable, so there is none; equal matrices have one, so there is no such proof."""
+    far, back = np.array([[-1.0, 9.0], [0.0, -1.0]]), np.array([[-1.0, 0.0], [9.0, -1.0]])
+    assert np.linalg.eigvals(0.5 * (far + back)).real.max() > 0.0
+    level = stability._farkas([far, back], "CLARABEL")
+    assert level is not None
+    assert level > 0.0
+    assert stability._farkas([far, far], "CLARABEL") is None
+
+
 def test_polytopes(engine):
     vertex = engine.at(np.zeros((3, 3)))
     far = replace(vertex, A=vertex.A + np.array([[0.0, 50.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]))
     back = replace(vertex, A=vertex.A + np.array([[0.0, 0.0, 0.0], [50.0, 0.0, 0.0], [0.0, 0.0, 0.0]]))
-    refused("vertices is not quadratically stable", engine, IDENTITY, Polytope((far, back)))
+    refused(
+        "vertices is not quadratically stable: no P ≻ 0 .* Proof: there are X_i",
+        engine,
+        IDENTITY,
+        Polytope((far, back)),
+    )
     refused("vertex 1 is unstable", engine, IDENTITY, Polytope((vertex, replace(vertex, A=-vertex.A))))
     refused("rank 0", engine, IDENTITY, Polytope((vertex, replace(vertex, Df=0.0 * vertex.Df))))
     single = UncertainPlant(**{name: -np.ones((1, 1)) for name in ("A", "Bf", "Bd", "B", "C", "Df", "Dd", "D")})
@@ -88,7 +132,7 @@ def test_references(engine):
 
 def test_faults_that_drown(engine):
     drowned = replace(engine, Dd=100.0 * engine.Dd)
-    refused("a residual that is always zero has 1", drowned, IDENTITY)
+    refused("always zero has gamma 1, and no filter .* has less than 0.99.* at 0 rad/s proves it", drowned, IDENTITY)
 
 
 def test_solvers(engine, monkeypatch):
@@ -96,7 +140,12 @@ def test_solvers(engine, monkeypatch):
     if "MOSEK" not in __import__("cvxpy").installed_solvers():
         refused("MOSEK is not installed", engine, IDENTITY, solver="MOSEK")
     monkeypatch.setitem(solvers.SOLVERS, "SCS", {"eps": 1e-9, "max_iters": 20})
-    refused("SCS stopped with status 'optimal_inaccurate'.*what a solver doubts", engine, IDENTITY, solver="SCS")
+    refused(
+        "SCS .status 'optimal_inaccurate'.* did not find .* is no proof .* what a solver doubts",
+        engine,
+        IDENTITY,
+        solver="SCS",
+    )
 
 
 def test_importing_the_package_does_not_import_cvxpy():

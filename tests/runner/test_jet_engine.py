@@ -61,7 +61,7 @@ def test_run_seven_of_every_scenario_is_the_same_engine(campaign):
 def test_overlapping_faults_are_events_with_their_own_limits(folder):
     rows, events = load(folder), load_events(folder)
     assert set(events["scenario"]) == {"faults_idle", "faults_half_steps", "faults_steps"}
-    assert len(events) == 3 * 6 * 3 * 5
+    assert len(events) == 3 * 6 * 3 * 6
     assert set(events["sites"]) == {"f1", "f2", "f3"}
     assert set(events["detection_time_limit_s"]) == {5.0}
     assert set(rows[rows["scenario"] == "faults_steps"]["detection_time_limit_s"]) == {11.0}

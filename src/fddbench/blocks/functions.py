@@ -14,7 +14,7 @@ tangent by Moshier (1989), Cephes (atan.c).
 import numpy as np
 
 from fddbench.blocks.layout import Rows
-from fddbench.blocks.operations import exponent, fraction, named, power_of_two
+from fddbench.blocks.primitives import exponent, fraction, named, power_of_two
 
 __all__ = ["asin", "atan2", "cos", "exp", "interpolate", "interpolate_2d", "log", "pow_", "sin"]
 

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fddbench.blocks.layout import Rows
-from fddbench.blocks.operations import gather, locate
+from fddbench.blocks.primitives import gather, locate
 from fddbench.blocks.table import Table
 from fddbench.errors import DesignError
 

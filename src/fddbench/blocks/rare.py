@@ -1,4 +1,4 @@
-"""What a sample can leave out while nothing seldom is true in any case of its block: see `operations.rarely`."""
+"""What a sample can leave out while nothing seldom is true in any case of its block: see `primitives.rarely`."""
 
 from collections.abc import Collection
 from dataclasses import dataclass

@@ -3,7 +3,7 @@
 import numpy as np
 
 from fddbench.blocks.layout import Rows
-from fddbench.blocks.operations import pick
+from fddbench.blocks.primitives import pick
 
 __all__ = ["ring"]
 

@@ -8,15 +8,15 @@ import numpy.typing as npt
 
 from fddbench.blocks import array_functions, ufuncs
 from fddbench.blocks.graph import Graph
-from fddbench.blocks.operations import OPERATIONS, Symbolic
+from fddbench.blocks.manners import Manners, static
+from fddbench.blocks.operations import OPERATIONS
+from fddbench.blocks.primitives import Symbolic
 from fddbench.blocks.trouble import trouble
 
 __all__ = ["Traced"]
 
-_IF = "use np.where(condition, a, b), np.minimum or np.maximum: every flight takes every step together"
 
-
-class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
+class Traced(Manners, np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
     """Array of nodes with the shape and the manners of the NumPy array it stands for, its case axis of length 1.
 
     Parameters
@@ -146,13 +146,13 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
 
     # --- indexing ---
     def __getitem__(self, key: Any) -> "Traced":
-        return self.like(self.ids[_static(key)])
+        return self.like(self.ids[static(key)])
 
     def __setitem__(self, key: Any, value: Any) -> None:
         lifted = self.lift(value)
         if self.boolean and not lifted.boolean:
             trouble("numbers written into true or false", "compare first, or start from a float array")
-        self.ids[_static(key)] = lifted.ids if self.boolean else lifted.number().ids
+        self.ids[static(key)] = lifted.ids if self.boolean else lifted.number().ids
 
     # --- methods of arrays ---
     def reshape(self, *shape: Any) -> "Traced":
@@ -182,51 +182,6 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin, Symbolic):
             trouble(f"astype({kind})", "stay with float and bool")
         return self.number().copy()
 
-    def sum(self, axis: Any = None, **options: Any) -> Any:
-        """Sum left to right; of true and false, how many are true."""
-        return np.sum(self, axis=axis, **options)
-
-    def max(self, axis: Any = None, **options: Any) -> Any:
-        """Largest."""
-        return np.max(self, axis=axis, **options)
-
-    def min(self, axis: Any = None, **options: Any) -> Any:
-        """Smallest."""
-        return np.min(self, axis=axis, **options)
-
-    def any(self, axis: Any = None, **options: Any) -> Any:
-        """Whether one is true."""
-        return np.any(self, axis=axis, **options)
-
-    def all(self, axis: Any = None, **options: Any) -> Any:
-        """Whether all are true."""
-        return np.all(self, axis=axis, **options)
-
-    def clip(self, low: Any, high: Any) -> Any:
-        """Between two limits."""
-        return np.minimum(np.maximum(self, low), high)
-
-    # --- what cannot be ---
-    def __bool__(self) -> bool:  # noqa: PLE0304  (never returns)
-        trouble("an `if`, `and`, `or`, `not` or `while` depends on a traced value", _IF)
-
-    def __float__(self) -> float:
-        trouble("a traced value was turned into a Python number or written into a plain array",
-                "use functions of fddbench.blocks.functions, and np.stack or np.concatenate")  # fmt: skip
-
-    def __int__(self) -> int:
-        trouble("a traced value was turned into a Python integer", "use np.floor or np.rint and stay with floats")
-
-    def __index__(self) -> int:  # noqa: PLE0305  (never returns)
-        trouble("a traced value is used as an index", "use blocks.functions.interpolate or np.where over the rows")
-
-    def __array__(self, *_: Any, **__: Any) -> Any:
-        trouble(
-            "a traced value is written into a plain array, used as an index of one, or given to a function that wants "
-            "its numbers",
-            "build arrays with np.stack or np.concatenate, look up with blocks.functions.interpolate, choose with np.where",
-        )
-
 
 def _innermost(root: Traced, values: Iterable[Any]) -> Traced:
     """Of the traced values the one of the innermost trace: inside a `repeat` those of outside are taken in, not the reverse."""
@@ -236,12 +191,3 @@ def _innermost(root: Traced, values: Iterable[Any]) -> Traced:
         elif isinstance(value, Traced) and value.graph.depth > root.graph.depth:
             root = value
     return root
-
-
-def _static(key: Any) -> Any:
-    """The index itself, unless it depends on data."""
-    for part in key if isinstance(key, tuple) else (key,):
-        if isinstance(part, Traced):
-            cure = "use np.where(condition, a, b)" if part.boolean else "use blocks.functions.interpolate or np.where"
-            trouble("an index depends on a traced value, so its shape or place depends on data", cure)
-    return key

@@ -26,6 +26,7 @@ from fddbench.designs.design import Design, read_design
 from fddbench.designs.finding import find_design
 from fddbench.errors import CampaignError, FddbenchError, Mistake, did_you_mean, reason_of
 from fddbench.interfaces import Benchmark, Plant
+from fddbench.results.folder import RESERVED
 
 __all__ = ["find_campaign", "read_campaign"]
 
@@ -53,6 +54,11 @@ def read_campaign(path: Path, overrides: Sequence[str] = ()) -> Campaign:
             mistakes += inconsistencies(document, written, faults.lists, ground.benchmark, ground.plant)
     if written is not None:
         mistakes += _tuned_on_these_flights(written, designs)
+    mistakes += [
+        document.mistake((), f"the file {name} beside the campaign has a name that folders of results need; rename it")
+        for name in ground.files | faults.files
+        if Path(name).parts[0] in RESERVED
+    ]
     refuse(mistakes)
     assert written is not None
     return _meaning(document, path, written, faults, designs, ground)
@@ -77,13 +83,14 @@ def _ground(document: Document, folder: Path) -> _Ground:
     try:
         kind = kinds.find("benchmark", name, beside=folder)
         found.files |= kind.files
-        found.benchmark = kind.member()
-        campaign_file(tuple(found.benchmark.choices))
-        found.chosen, wrong = choose(document, found.benchmark, folder)
+        benchmark = kind.member()
+        campaign_file(tuple(benchmark.choices))
+        found.benchmark = benchmark
+        found.chosen, wrong = choose(document, benchmark, folder)
         found.mistakes += wrong
         if found.chosen is not None:
             found.files |= found.chosen.files
-            found.plant = found.benchmark.plant(found.chosen.members)
+            found.plant = benchmark.plant(found.chosen.members)
             _require_sound(found.plant)
     except FddbenchError as error:
         found.mistakes.append(document.mistake(("benchmark",), str(error)))

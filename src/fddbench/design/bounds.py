@@ -1,4 +1,4 @@
-"""Lower bounds of γ that no filter can beat: a few explicit plants, one frequency, and a dual certificate."""
+"""Lower bounds of γ that no filter can beat: explicit plants, one frequency, and what no gain can do there."""
 
 from dataclasses import dataclass
 
@@ -6,56 +6,35 @@ import numpy as np
 from scipy.linalg import null_space
 
 from fddbench.design.problem import Augmented
-from fddbench.design.search import Fraction, climb
+from fddbench.design.response import Matrix, Response, at, complex_form, real_form, unseen, worst_frequency
+from fddbench.design.search import climb
 from fddbench.design.solver import attempt, modelling
 from fddbench.design.uncertainty import Block, sample_delta
 from fddbench.errors import DesignError
 from fddbench.interfaces import Floats
 from fddbench.systems import StateSpace
 
-__all__ = ["lower_bound", "lower_bound_diagonal"]
+__all__ = ["Bound", "lower_bound", "lower_bound_diagonal"]
 
 ROUNDS = 12
 """Most rounds of adding the worst plants; four to eight settle the references of the jet engine."""
 
 
 @dataclass(frozen=True)
-class _Response:
-    """What the filter sees and what it should say at a frequency where all responses are real.
+class Bound:
+    """No filter has a smaller γ, and the frequency [rad/s] at which this is proved."""
 
-    Attributes
-    ----------
-    measured : Fraction
-        From v to (y, u), as a function of Δ.
-    faults : (n_f, n_v) array
-        From v to the weighted faults.
-    """
-
-    measured: Fraction
-    faults: Floats
-
-    @classmethod
-    def of(cls, plant: Augmented, frequency: float) -> "_Response":
-        """Response of the plant with its weights, at 0 or ∞ [rad/s]."""
-        n_m, n_f, n_v, own = len(plant.Cm), len(plant.Wc), plant.B.shape[1], slice(plant.n_ref, None)
-        inputs, outputs = np.hstack([plant.B, plant.F]), np.vstack([plant.Cm, plant.Wc, plant.E])
-        direct = np.block([[plant.Dm, plant.Fm], [plant.Wd, np.zeros((n_f, plant.F.shape[1]))], [plant.Ev, plant.H]])
-        whole = StateSpace(plant.A[own, own], inputs[own], outputs[:, own], direct).at(frequency).real
-        m, f, z = whole[:n_m], whole[n_m : n_m + n_f], whole[n_m + n_f :]
-        return cls(Fraction(m[:, :n_v], m[:, n_v:], z[:, :n_v], z[:, n_v:]), f[:, :n_v])
-
-    def error(self, gain: Floats, reference: Floats) -> Fraction:
-        """``K M(Δ) - T_ref W`` for a filter with the response K at this frequency."""
-        M = self.measured
-        return Fraction(gain @ M.rv - reference @ self.faults, gain @ M.rw, M.zv, M.zw)
+    gamma: float
+    frequency: float
 
 
-def lower_bound(plants: tuple[Augmented, ...], reference: StateSpace, blocks: tuple[Block, ...]) -> float:
-    """Largest γ that is proved unreachable for a fixed reference, over the frequencies 0 and ∞.
+def lower_bound(plants: tuple[Augmented, ...], reference: StateSpace, blocks: tuple[Block, ...]) -> Bound:
+    """Largest γ that is proved unreachable for a fixed reference.
 
     At one frequency any filter is a constant matrix K, so γ is at least ``min_K max_i ‖K M_i - R‖`` over any finite set
-    of plants. The minimum is bounded from below by a point of its dual, taken from the solver's answer and made
-    feasible by projection and scaling: the bound does not trust the solver.
+    of plants. For one plant that is what R asks of the directions that M does not see, at any frequency. For several,
+    at 0, ∞ and where a single one is worst, it is bounded from below by a point of the dual, taken from the solver's
+    answer and made feasible by projection and scaling: the bound does not trust the solver.
 
     Parameters
     ----------
@@ -66,38 +45,45 @@ def lower_bound(plants: tuple[Augmented, ...], reference: StateSpace, blocks: tu
     blocks : tuple of Block
         Structure of Δ; () for a polytope or a certain plant.
     """
-    bounds = [0.0]
-    for frequency in (np.inf, 0.0):
-        responses = [_Response.of(plant, frequency) for plant in plants]
-        bounds.append(_cutting_planes(responses, blocks, reference.at(frequency).real))
-    return max(bounds)
+    best = max((worst_frequency(plant, reference) for plant in plants), key=lambda spot: spot.gamma)
+    bounds = [Bound(best.gamma, best.frequency)]
+    if blocks or len(plants) > 1:
+        ends = max(unseen(plant, reference, w) for plant in plants for w in (0.0, np.inf))
+        inner = (best.frequency,) if best.gamma > 1.001 * ends else ()
+        for frequency in dict.fromkeys((np.inf, 0.0, *inner)):
+            responses = [Response.of(plant, frequency) for plant in plants]
+            bounds.append(Bound(_cutting_planes(responses, blocks, at(reference, frequency)), frequency))
+    return max(bounds, key=lambda bound: bound.gamma)
 
 
-def lower_bound_diagonal(plants: tuple[Augmented, ...], blocks: tuple[Block, ...]) -> float:
+def lower_bound_diagonal(plants: tuple[Augmented, ...], blocks: tuple[Block, ...]) -> Bound:
     """Largest γ proved unreachable for every diagonal reference with ‖T_ref‖₋ ≥ 1, of any order and with any poles.
 
     Such a reference has ``|d_i| ≥ 1`` at infinity, and the sign of a residual is free, so that ``d_i ≥ 1``.
     """
-    return _cutting_planes([_Response.of(plant, np.inf) for plant in plants], blocks, None)
+    return Bound(_cutting_planes([Response.of(plant, np.inf) for plant in plants], blocks, None), np.inf)
 
 
-def _cutting_planes(responses: list[_Response], blocks: tuple[Block, ...], reference: Floats | None) -> float:
+def _cutting_planes(responses: list[Response], blocks: tuple[Block, ...], wanted_at: Matrix | None) -> float:
     """Best bound while the worst plants for the best gain join the binding ones; no reference is a free one."""
     nothing = np.zeros((sum(b.shape[0] for b in blocks), sum(b.shape[1] for b in blocks)))
+    reference = None if wanted_at is None else real_form(wanted_at)
     if not blocks:
-        return _best_gain([r.measured.rv for r in responses], [r.faults for r in responses], reference)[-1]
+        pairs = [(real_form(response.measured.rv), real_form(response.faults)) for response in responses]
+        return _best_gain([M for M, _ in pairs], [W for _, W in pairs], reference)[-1]
     (response,) = responses
     measured, best = [response.measured.at(delta) for delta in (nothing, *sample_delta(blocks, 4, seed=0)[1:])], 0.0
+    faults, n_f = real_form(response.faults), len(response.faults)
     for _ in range(ROUNDS):
-        gain, wanted, level, bound = _best_gain(measured, [response.faults] * len(measured), reference)
+        gain, target, level, bound = _best_gain([real_form(M) for M in measured], [faults] * len(measured), reference)
         best = max(best, bound)
-        error = response.error(gain, wanted)
-        climbs = [climb(error, blocks, start, steps=10) for start in sample_delta(blocks, 6, seed=1)]
+        K, R = complex_form(gain, n_f), complex_form(target, n_f)
+        climbs = [climb(response.error(K, R), blocks, start, steps=10) for start in sample_delta(blocks, 6, seed=1)]
         worse = {round(value, 9): delta for delta, value in climbs if value > level * (1.0 + 1e-5)}
         if not worse:
             break
-        target = wanted @ response.faults
-        binding = [M for M in measured if np.linalg.norm(gain @ M - target, 2) > 0.99 * level]
+        asked = R @ response.faults
+        binding = [M for M in measured if np.linalg.norm(K @ M - asked, 2) > 0.99 * level]
         measured = binding + [response.measured.at(worse[value]) for value in sorted(worse)[-3:]]
     return best
 
@@ -115,7 +101,7 @@ def _best_gain(
     free = [d >= 1.0] if reference is None else []
     status = attempt(cp.Problem(cp.Minimize(level), cones + free), "CLARABEL", "lower bound")
     if status not in ("optimal", "optimal_inaccurate"):
-        raise DesignError(f"lower bound of gamma: solver status {status!r}; scale states and signals to about one.")
+        raise DesignError(f"lower bound of gamma: solver status {status!r}; try other weights.")
     duals = [np.asarray(cone.dual_value)[:n_f, n_f:] for cone in cones]
     bound = _dual_bound(duals, measured, faults, reference)
     return np.asarray(K.value), np.asarray(getattr(wanted, "value", wanted)), float(level.value), bound

@@ -1,6 +1,7 @@
 """Proof of a γ in the coordinates of the filter that flies: no change of variables, no solver, only eigenvalues."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
+from typing import Any
 
 import numpy as np
 
@@ -10,12 +11,17 @@ from fddbench.errors import DesignError
 from fddbench.interfaces import Floats
 from fddbench.systems import StateSpace
 
-__all__ = ["Certificate", "bounded_real", "certify", "robust_matrix"]
+__all__ = ["Certificate", "bounded_real", "certify", "definite", "robust_matrix"]
+
+EPS = float(np.finfo(float).eps)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Certificate:
     """Eigenvalues that prove ``‖T‖∞ < γ`` for every plant of the set.
+
+    A matrix is as definite as ``D M D`` is for any diagonal D. With unit diagonals eigenvalues are relative margins, the
+    same in all units of states and signals.
 
     Attributes
     ----------
@@ -26,11 +32,12 @@ class Certificate:
     multiplier : Multiplier or None
         S and G; None for a polytope.
     smallest_Pc : float
-        Smallest eigenvalue of Pc, must be positive.
+        Smallest eigenvalue of Pc with its diagonal scaled to one, must be positive.
     largest_robust : float
-        Largest eigenvalue of (25), of (43) for a structured Δ, of (46) over all vertices; must be negative.
+        Largest eigenvalue of (25), of (43) for a structured Δ, of (46) over all vertices, with their diagonals scaled to
+        minus one; must be negative.
     largest_sampled : float
-        Largest eigenvalue of (15) over the sampled members of the set; must be negative.
+        The same of (15) over the sampled members of the set; must be negative.
     rounding : float
         Bound of the rounding errors of these eigenvalues; they must clear it.
     n_sampled : int
@@ -49,7 +56,7 @@ class Certificate:
     @property
     def holds(self) -> bool:
         """Whether every eigenvalue has its sign by more than rounding."""
-        return self.smallest_Pc > 0.0 and max(self.largest_robust, self.largest_sampled) < -self.rounding
+        return self.smallest_Pc > len(self.Pc) * EPS and max(self.largest_robust, self.largest_sampled) < -self.rounding
 
     def require(self) -> "Certificate":
         """Return the certificate itself; a γ without proof is an error."""
@@ -58,8 +65,8 @@ class Certificate:
         raise DesignError(
             f"gamma = {self.gamma:.6g} has no certificate: need Pc ≻ 0 (smallest eigenvalue {self.smallest_Pc:.3g}), "
             f"(25) ≺ 0 (largest {self.largest_robust:.3g}) and (15) ≺ 0 (largest of {self.n_sampled} samples "
-            f"{self.largest_sampled:.3g}), beyond rounding {self.rounding:.1g}.\n"
-            "Allow a larger gamma or scale states and signals to about one."
+            f"{self.largest_sampled:.3g}), beyond rounding {self.rounding:.1g}, all relative to their diagonals.\n"
+            "Allow a larger gamma, or try another solver."
         )
 
 
@@ -105,22 +112,55 @@ def certify(
         Sampled closed loops for (15).
     """
     if multiplier is None:
-        robust = [bounded_real(StateSpace(loop.A, loop.B, loop.C, loop.D), P, gamma) for loop in loops]
+        plain = [StateSpace(loop.A, loop.B, loop.C, loop.D) for loop in loops]
+        robust = [(bounded_real(system, P, gamma), _magnitude(system, P, gamma)) for system in plain]
     else:
-        robust = [robust_matrix(loop, P, gamma, multiplier) for loop in loops]
-    sampled = [bounded_real(member, P, gamma) for member in members]
+        robust = [
+            (robust_matrix(loop, P, gamma, multiplier), robust_matrix(_sized(loop), abs(P), gamma, _sized(multiplier)))
+            for loop in loops
+        ]
+    sampled = [(bounded_real(member, P, gamma), _magnitude(member, P, gamma)) for member in members]
+    eigenvalues = [(_largest(matrix), _rounding(matrix, terms)) for matrix, terms in robust + sampled]
     return Certificate(
         Pc=P,
         gamma=gamma,
         multiplier=multiplier,
-        smallest_Pc=float(np.linalg.eigvalsh(P)[0]),
-        largest_robust=max(_largest(matrix) for matrix in robust),
-        largest_sampled=max((_largest(matrix) for matrix in sampled), default=-np.inf),
-        rounding=max(len(matrix) * np.finfo(float).eps * float(np.linalg.norm(matrix, 2)) for matrix in robust),
+        smallest_Pc=-_largest(-P),
+        largest_robust=max(value for value, _ in eigenvalues[: len(robust)]),
+        largest_sampled=max((value for value, _ in eigenvalues[len(robust) :]), default=-np.inf),
+        rounding=max(rounding for _, rounding in eigenvalues),
         n_sampled=len(members),
     )
 
 
+def definite(symmetric: Floats) -> bool:
+    """Whether a matrix is positive definite by more than the rounding of its eigenvalues, whatever its units."""
+    return _largest(-symmetric) < -8.0 * len(symmetric) * EPS if len(symmetric) else True
+
+
+def _sized(record: Any) -> Any:
+    """The record with the absolute values of its matrices."""
+    return replace(record, **{field.name: np.abs(getattr(record, field.name)) for field in fields(record)})
+
+
+def _magnitude(system: StateSpace, P: Floats, gamma: float) -> Floats:
+    """Sums of the absolute values of the terms of (15)."""
+    return bounded_real(_sized(system), np.abs(P), gamma)
+
+
+def _scale(symmetric: Floats) -> Floats:
+    """Factors that make the diagonal plus or minus one; one where it is zero."""
+    diagonal = np.sqrt(np.abs(np.diag(symmetric)))
+    return 1.0 / np.where(diagonal > 0.0, diagonal, 1.0)
+
+
 def _largest(symmetric: Floats) -> float:
-    """Largest eigenvalue."""
-    return float(np.linalg.eigvalsh(0.5 * (symmetric + symmetric.T))[-1])
+    """Largest eigenvalue of a matrix with its diagonal scaled to size one."""
+    scale = _scale(symmetric)
+    return float(np.linalg.eigvalsh(0.5 * (symmetric + symmetric.T) * np.outer(scale, scale))[-1])
+
+
+def _rounding(symmetric: Floats, terms: Floats) -> float:
+    """Bound of what rounding moves the eigenvalues of the scaled matrix by, its entries being sums of `terms`."""
+    scale, n = _scale(symmetric), len(symmetric)
+    return n * EPS * float(np.linalg.norm((np.abs(symmetric) + np.abs(terms)) * np.outer(scale, scale), 2))

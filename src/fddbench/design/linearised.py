@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from fddbench.design.lmi import EPSILON, FilterVariables, Solution, upper_part
+from fddbench.design.lmi import FilterVariables, Margins, Solution, upper_part
 from fddbench.design.multipliers import MultiplierVariables
 from fddbench.design.problem import Augmented
 from fddbench.design.solver import modelling, solve
@@ -35,6 +35,21 @@ class Freedom:
         """Diagonal entries of A, C and D where they exist; B is fixed (Remark 8)."""
         A, C, D = (np.eye(*M.shape) != 0.0 for M in (reference.A, reference.C, reference.D))
         return cls(A=A, B=np.zeros(reference.B.shape, dtype=bool), C=C, D=D)
+
+    @classmethod
+    def triangular(cls, reference: StateSpace) -> "Freedom":
+        """Entries on and below the diagonal of A, C and D, or above, where C or D has some there; a diagonal stays one.
+
+        A reference with entries on both sides is free everywhere. B is fixed.
+        """
+        used = [M for M in (reference.A, reference.C, reference.D) if M.size]
+        below, above = (any(np.any(side(M, k) != 0.0) for M in used) for side, k in ((np.tril, -1), (np.triu, 1)))
+        shapes = {name: np.ones(getattr(reference, name).shape) for name in "ACD"}
+        masks = {
+            name: (np.eye(*M.shape) + below * np.tril(M, -1) + above * np.triu(M, 1)) != 0.0
+            for name, M in shapes.items()
+        }
+        return cls(B=np.zeros(reference.B.shape, dtype=bool), **masks)
 
 
 class ReferenceVariables:
@@ -78,6 +93,7 @@ def inequality_about(
     gamma: Any,
     about: tuple[Solution, StateSpace],
     scale: float,
+    margins: Margins,
 ) -> list[Any]:
     """Constraint (66): (37) linearised about a solution and its reference, with ``scale Q, R / scale`` for Q, R.
 
@@ -88,7 +104,7 @@ def inequality_about(
     frozen = np.zeros_like(about[1].A), np.zeros_like(about[1].B)
     quadruple = augmented.with_reference(*frozen, reference.C, reference.D)
     half = upper_part(augmented, quadruple, variables, multiplier, gamma)
-    margin = EPSILON * np.eye(half.shape[0])
+    margin = margins.of_rows(half.shape[0], gamma)
     if not augmented.n_ref:
         return [half + half.T << -margin]
     Q, R = _bilinear(augmented, variables, reference.A, reference.B, half.shape[0], cp.bmat)

@@ -4,16 +4,66 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy.linalg import block_diag
 
+from fddbench.design.gramians import gramian
 from fddbench.design.multipliers import Multiplier, MultiplierVariables
 from fddbench.design.problem import Augmented, Filter
 from fddbench.design.solver import modelling
 from fddbench.interfaces import Floats
 
-__all__ = ["EPSILON", "FilterVariables", "Solution", "inequality", "positive", "upper_part"]
+__all__ = ["EPSILON", "FilterVariables", "Margins", "Solution", "inequality", "positive", "upper_part"]
 
 EPSILON = 1e-6
-"""Margin that turns ≺ into ⪯; large beside the accuracy of a solver (1e-8), small beside γ."""
+"""Margin that turns ≺ into ⪯, as a share of `Margins`; large beside the accuracy of a solver (1e-8), small beside γ."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Margins:
+    """What a margin is a share of: the storage of the plant alone and what it loses, but at most one.
+
+    A margin of the same size for all asks a slow or lightly damped mode for more than it can give: ``ZA + AᵀZ ⪯ -εI``
+    with a decay of 0.002 rad/s makes Z, and with it γ, five hundred times as large as ε.
+
+    Attributes
+    ----------
+    storage : (n_k, n_k) array
+        Inverse reachability Gramian of the plant with its reference; Z of about this size bounds unit gains.
+    loss : (n_k, n_k) array
+        ``-(ZA + AᵀZ)`` for this storage, positive definite.
+    n_signals : int
+        Rows of v and r, whose margin is a share of γ.
+    """
+
+    storage: Floats
+    loss: Floats
+    n_signals: int
+
+    @classmethod
+    def of(cls, A: Floats, B: Floats, n_signals: int) -> "Margins":
+        """Margins for the states of ``ξ' = A ξ + B v`` in coordinates where sizes are about one."""
+        storage = np.asarray(np.linalg.inv(gramian(A, B, share=1e-4)), dtype=float)
+        loss = -(storage @ A + A.T @ storage)
+        return cls(storage=_at_most_one(storage), loss=_at_most_one(loss), n_signals=n_signals)
+
+    def of_rows(self, n: int, level: Any) -> Any:
+        """Margin of the n rows of (37), (44) or (47): (ξ, ξ̂), signals v and r with ``-γI``, channels w and z."""
+        cp = modelling()
+        rest = n - 2 * len(self.loss) - self.n_signals
+        states, channels = EPSILON * block_diag(self.loss, self.loss), EPSILON * np.eye(rest)
+        signals = 3.0 * EPSILON * level * np.eye(self.n_signals)
+        sizes = (len(states), self.n_signals, rest)
+        blocks = [[np.zeros((a, b)) for b in sizes] for a in sizes]
+        for place, block in enumerate((states, signals, channels)):
+            blocks[place][place] = block
+        return cp.bmat([[block for block in row if block.shape[1]] for row in blocks if row[0].shape[0]])
+
+
+def _at_most_one(definite: Floats) -> Floats:
+    """Parallel sum of a positive definite matrix with the unit matrix: below both."""
+    n = len(definite)
+    bounded = np.linalg.solve(np.eye(n) + 0.5 * (definite + definite.T), 0.5 * (definite + definite.T))
+    return np.asarray(0.5 * (bounded + bounded.T))
 
 
 class FilterVariables:
@@ -57,15 +107,15 @@ class Solution:
         return np.block([[self.Y, N], [N, -N]])
 
 
-def positive(variables: FilterVariables) -> list[Any]:
+def positive(variables: FilterVariables, margins: Margins) -> list[Any]:
     """Constraint (38), ``[[Z, Z], [Z, Y]] ≻ 0``, equivalent to ``Z ≻ 0`` and ``Y - Z ≻ 0``."""
-    n = variables.Z.shape[0]
-    return [variables.Z >> EPSILON * np.eye(n), variables.Y - variables.Z >> EPSILON * np.eye(n)]
+    least = EPSILON * margins.storage
+    return [variables.Z >> least, variables.Y - variables.Z >> least]
 
 
-def inequality(matrix: Any) -> list[Any]:
-    """``matrix + matrixᵀ ≺ 0``."""
-    return [matrix + matrix.T << -EPSILON * np.eye(matrix.shape[0])]
+def inequality(matrix: Any, margins: Margins, level: Any) -> list[Any]:
+    """``matrix + matrixᵀ ≺ 0`` for the matrix of `upper_part` with γ = level."""
+    return [matrix + matrix.T << -margins.of_rows(matrix.shape[0], level)]
 
 
 def upper_part(

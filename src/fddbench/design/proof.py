@@ -4,11 +4,11 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from scipy.linalg import block_diag
 
+from fddbench.design.bounds import Bound, lower_bound
 from fddbench.design.certificate import Certificate, certify
-from fddbench.design.coordinates import transformed
-from fddbench.design.lmi import FilterVariables, Solution, inequality, positive, upper_part
+from fddbench.design.coordinates import Coordinates
+from fddbench.design.lmi import FilterVariables, Margins, Solution, inequality, positive, upper_part
 from fddbench.design.multipliers import Multiplier, MultiplierVariables
 from fddbench.design.problem import Augmented, ClosedLoop, Filter, close
 from fddbench.design.uncertainty import Block, sample_delta
@@ -16,7 +16,7 @@ from fddbench.design.worst_case import hull_members
 from fddbench.interfaces import Floats
 from fddbench.systems import StateSpace
 
-__all__ = ["N_SAMPLED", "Proven", "Task", "prove"]
+__all__ = ["N_SAMPLED", "Proven", "Task", "prove", "proved"]
 
 N_SAMPLED = 50
 """Members of the set at which a certificate checks (15) besides the robust inequality that covers all of them."""
@@ -40,8 +40,8 @@ class Proven:
         The closed loop with its Δ channel, or those at the vertices of a polytope.
     blocks : tuple of Block
         Structure of Δ.
-    solution : Solution
-        The point Z, Y, Â, ... of the inequality.
+    solution : Solution or None
+        The point Z, Y, Â, ... of the inequality; None for a filter that follows exactly, which is found without one.
     """
 
     filter: Filter
@@ -50,7 +50,12 @@ class Proven:
     certificate: Certificate
     loops: tuple[ClosedLoop, ...] = field(repr=False)
     blocks: tuple[Block, ...] = field(repr=False)
-    solution: Solution = field(repr=False)
+    solution: Solution | None = field(repr=False)
+
+    @property
+    def exact(self) -> bool:
+        """Whether the filter follows its reference exactly, γ being nothing but what rounding allows to prove."""
+        return self.solution is None
 
     @property
     def lambda_(self) -> float | None:
@@ -74,8 +79,8 @@ class Task:
         T_ref.
     solver : str
         Solver by name.
-    T : (n_k, n_k) array
-        Coordinates of the optimisation, ``ξ = T η``.
+    coordinates : Coordinates
+        Of the optimisation: time, states, signals and residuals of about size one.
     idle_gamma : float
         γ of the residual that is always zero [-].
     """
@@ -84,43 +89,65 @@ class Task:
     blocks: tuple[Block, ...]
     reference: StateSpace
     solver: str
-    T: Floats
+    coordinates: Coordinates
     idle_gamma: float
 
     @property
     def scaled(self) -> tuple[Augmented, ...]:
-        """The plants in the coordinates of the optimisation, ``ξ = T η``."""
-        return tuple(transformed(plant, self.T) for plant in self.plants)
+        """The plants in the coordinates of the optimisation."""
+        return tuple(self.coordinates.plant(plant) for plant in self.plants)
 
-    def constraints(self, gamma: Any) -> tuple[list[Any], FilterVariables, MultiplierVariables]:
-        """(37) or (44), or (47) at every vertex, with (38)."""
-        scaled = self.scaled
+    @property
+    def margins(self) -> Margins:
+        """What the margins of the optimisation are a share of."""
+        plant, R = self.scaled[0], self.coordinates.reference(self.reference)
+        A, B, _, _ = plant.with_reference(R.A, R.B, R.C, R.D)
+        return Margins.of(A, np.hstack([B, plant.F]), B.shape[1] + len(plant.Wc))
+
+    def lower_bound(self) -> Bound:
+        """Largest γ proved unreachable for the reference, with the frequency that proves it."""
+        scaled = self.coordinates.reference(self.reference)
+        bound = lower_bound(self.scaled, scaled, self.blocks)
+        return Bound(bound.gamma * self.coordinates.unit, bound.frequency * self.coordinates.rate)
+
+    def constraints(self, level: Any) -> tuple[list[Any], FilterVariables, MultiplierVariables]:
+        """(37) or (44), or (47) at every vertex, with (38); `level` is γ in the unit of the coordinates."""
+        scaled, margins, R = self.scaled, self.margins, self.coordinates.reference(self.reference)
         variables, multiplier = FilterVariables(scaled[0]), MultiplierVariables(self.blocks)
-        constraints, R = positive(variables), self.reference
+        constraints = positive(variables, margins)
         for plant in scaled:
             quadruple = plant.with_reference(R.A, R.B, R.C, R.D)
-            constraints += inequality(upper_part(plant, quadruple, variables, multiplier, gamma))
+            constraints += inequality(upper_part(plant, quadruple, variables, multiplier, level), margins, level)
         return constraints, variables, multiplier
 
 
 def prove(task: Task, solution: Solution, multiplier: Multiplier, gamma: float) -> Proven:
-    """Return the filter of a solution with its certificate, which may still fail."""
-    filter_ = solution.filter()
+    """Return the filter of a solution with its certificate, which may still fail; all in the plant's own units."""
+    coordinates = task.coordinates
+    used = coordinates.multiplier_back(multiplier) if task.blocks else None
+    filter_ = coordinates.filter_back(solution.filter())
+    return proved(task, filter_, coordinates.lyapunov_back(solution.lyapunov()), used, gamma, solution)
+
+
+def proved(
+    task: Task, filter_: Filter, P: Floats, multiplier: Multiplier | None, gamma: float, solution: Solution | None
+) -> Proven:
+    """Return a filter with the certificate that P and the multiplier give it."""
     loops = tuple(close(plant, task.reference, filter_) for plant in task.plants)
-    if task.blocks:
-        members = [loops[0].at(delta) for delta in sample_delta(task.blocks, N_SAMPLED, seed=0)]
-    else:
-        mixes = np.random.default_rng(0).dirichlet(np.full(len(loops), 0.5), N_SAMPLED if len(loops) > 1 else 1)
-        members = hull_members(loops, mixes)
-    used = multiplier if task.blocks else None
-    back = block_diag(np.linalg.inv(task.T), np.eye(len(task.T)))
-    certificate = certify(loops, back.T @ solution.lyapunov() @ back, gamma, used, members)
     return Proven(
         filter=filter_,
         gamma=gamma,
-        multiplier=used,
-        certificate=certificate,
+        multiplier=multiplier,
+        certificate=certify(loops, P, gamma, multiplier, _members(task, loops)),
         loops=loops,
         blocks=task.blocks,
         solution=solution,
     )
+
+
+def _members(task: Task, loops: tuple[ClosedLoop, ...]) -> list[StateSpace]:
+    """Closed loops of sampled plants."""
+    if task.blocks:
+        return [loops[0].at(delta) for delta in sample_delta(task.blocks, N_SAMPLED, seed=0)]
+    mixes = np.random.default_rng(0).dirichlet(np.full(len(loops), 0.5), N_SAMPLED if len(loops) > 1 else 1)
+    return hull_members(loops, mixes)

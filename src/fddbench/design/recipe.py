@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,12 +13,15 @@ from fddbench import kinds
 from fddbench.campaign.reading.document import refuse
 from fddbench.campaign.reading.yaml_nodes import read_yaml
 from fddbench.campaign.rules.messages import mistakes_of
+from fddbench.design.linearised import Freedom
 from fddbench.design.problem import Filter, augment, close
 from fddbench.design.proof import Proven
+from fddbench.design.recipe_entries import plant_of, spelled_out
 from fddbench.design.recipe_file import Recipe
-from fddbench.design.reference_search import optimize_reference
+from fddbench.design.reference_search import optimize_fixed_poles, optimize_reference
 from fddbench.design.robust_hinf import Design, synthesize
-from fddbench.design.uncertainty import NormBounded, blocks_of
+from fddbench.design.uncertainty import NormBounded, Uncertainty, blocks_of
+from fddbench.design.weights import Weights
 from fddbench.design.worst_case import worst_delta
 from fddbench.designs.design_file import DesignFile, design_text
 from fddbench.errors import DesignError
@@ -58,7 +61,7 @@ def cook(path: Path) -> Cooked:
     except ValidationError as error:
         mistakes += mistakes_of(error, document, model=DesignFile)
     try:
-        recipe = Recipe.model_validate_json(json.dumps(document.get("recipe")), strict=True)
+        recipe = Recipe.model_validate_json(json.dumps(spelled_out(document.mapping("recipe"))), strict=True)
     except ValidationError as error:
         mistakes += mistakes_of(error, document, model=Recipe, at=("recipe",))
     refuse(mistakes)
@@ -72,20 +75,45 @@ def cook(path: Path) -> Cooked:
 
 def _made(recipe: Recipe) -> tuple[Filter, dict[str, Any]]:
     """Filter of a recipe and what is known of it."""
+    recipe.require_keys()
     plant = _plant(recipe.plant)
-    n_faults = plant.inputs[0]
-    reference = recipe.reference.system() if recipe.reference else StateSpace.gain(np.eye(n_faults))
     if recipe.method == "exact_inverse":
         filter_ = _exact_inverse(plant)
-        loop = close(augment(plant, StateSpace.gain(np.eye(n_faults))), StateSpace.gain(np.eye(n_faults)), filter_)
-        worst = worst_delta(loop, blocks_of(NormBounded(), plant))
+        identity = StateSpace.gain(np.eye(plant.inputs[0]))
+        worst = worst_delta(close(augment(plant, identity), identity, filter_), blocks_of(NormBounded(), plant))
         return filter_, {"worst_norm_sampled": _short(worst.norm)}
+    task = _Task(
+        uncertainty=recipe.uncertainty.uncertainty(plant) if recipe.uncertainty else NormBounded(),
+        weights=recipe.weights.weights(plant) if recipe.weights else Weights(),
+        options={"solver": recipe.solver, "relax": recipe.relax},
+    )
+    if recipe.method == "fixed_poles":
+        design = optimize_fixed_poles(plant, recipe.fixed_poles or (), task.uncertainty, task.weights, **task.options)
+        return _flown(design).filter, _findings(design) | _found_reference(design)
+    reference = recipe.reference.system() if recipe.reference else StateSpace.gain(np.eye(plant.inputs[0]))
     if recipe.method == "fixed_reference":
-        design = synthesize(plant, reference, relax=recipe.relax)
+        design = synthesize(plant, reference, task.uncertainty, task.weights, **task.options)
         return _flown(design).filter, _findings(design)
-    search = optimize_reference(plant, reference, relax=recipe.relax)
-    found = _findings(search.design) | {"gamma_by_iteration": [_short(step.gamma) for step in search.iterations]}
-    return _flown(search.design).filter, found
+    freedom = Freedom.triangular(reference)
+    search = optimize_reference(plant, reference, task.uncertainty, task.weights, freedom=freedom, **task.options)
+    steps = {"gamma_by_iteration": [_short(step.gamma) for step in search.iterations]}
+    return _flown(search.design).filter, _findings(search.design) | _found_reference(search.design) | steps
+
+
+@dataclass(frozen=True)
+class _Task:
+    """What all methods but the inverse are told."""
+
+    uncertainty: Uncertainty
+    weights: Weights
+    options: Mapping[str, Any]
+
+
+def _found_reference(design: Design) -> dict[str, Any]:
+    """The reference that was chosen."""
+    R = design.reference
+    names = "ABCD" if R.order else "D"
+    return {"reference": {name: [[_short(x) for x in row] for row in getattr(R, name).tolist()] for name in names}}
 
 
 def _flown(design: Design) -> Proven:
@@ -116,18 +144,7 @@ def _short(value: float) -> float:
 
 def _plant(given: str | Mapping[str, Any]) -> UncertainPlant:
     if not isinstance(given, str):
-        unknown = set(given) - set(UncertainPlant.__dataclass_fields__)
-        if unknown:
-            raise DesignError(
-                f"no matrix of a plant is called {sorted(unknown)}; known: {list(UncertainPlant.__dataclass_fields__)}"
-            )
-        try:
-            return UncertainPlant(**{name: np.array(rows, dtype=float) for name, rows in given.items()})
-        except (TypeError, ValueError) as error:
-            raise DesignError(
-                f"recipe.plant makes no plant: {error}. A, Bf, Bd, B, C, Df, Dd and D are needed, as matrices with rows of "
-                "equal length; the uncertainty channel is zero where it is not given"
-            ) from error
+        return plant_of(given, "recipe.plant")
     matrices = getattr(kinds.load("benchmark", given), "matrices", None)
     if matrices is None:
         raise DesignError(f"benchmark {given!r} offers no matrices to design for; give them under recipe.plant")
@@ -147,6 +164,8 @@ def _exact_inverse(plant: UncertainPlant) -> Filter:
 
 def _gains(filter_: Filter, recipe: Recipe) -> dict[str, Any]:
     """Gains of a `hinf_filter` with thresholds that nobody has tuned yet."""
+    if not len(filter_.Ak):
+        filter_ = _with_a_state(filter_)
     names = {"A": "Ak", "B_y": "Bky", "B_u": "Bku", "C": "Ck", "D_y": "Dky", "D_u": "Dku"}
     gains: dict[str, Any] = {name: getattr(filter_, own).tolist() for name, own in names.items()}
     gains |= {"window_s": recipe.window_s, "confirm_s": recipe.confirm_s, "thresholds": [1.0] * len(filter_.Ck)}
@@ -155,8 +174,14 @@ def _gains(filter_: Filter, recipe: Recipe) -> dict[str, Any]:
 
 def _speaks_plainly(recipe: Recipe) -> bool:
     """Whether residual i is made to be fault i itself: an inverse, or a reference that is the identity."""
-    given = recipe.reference
-    if recipe.method == "exact_inverse" or given is None:
-        return recipe.method != "free_reference"
-    identity = (given.a, given.b, given.c) == (None, None, None) and set(given.d) == {1.0}
-    return identity and recipe.method == "fixed_reference"
+    if recipe.method != "fixed_reference":
+        return recipe.method == "exact_inverse"
+    reference = recipe.reference.system() if recipe.reference else None
+    return reference is None or (not reference.order and np.array_equal(reference.D, np.eye(len(reference.D))))
+
+
+def _with_a_state(filter_: Filter) -> Filter:
+    """A static filter with a state that nothing moves and nobody sees: a file cannot say matrices without rows."""
+    n_r, n_y, n_u = len(filter_.Dky), filter_.Dky.shape[1], filter_.Dku.shape[1]
+    idle = {"Ak": -np.eye(1), "Bky": np.zeros((1, n_y)), "Bku": np.zeros((1, n_u)), "Ck": np.zeros((n_r, 1))}
+    return replace(filter_, **idle)

@@ -2,42 +2,22 @@
 
 from typing import Annotated, Any, Literal
 
-import numpy as np
 from pydantic import Field
 
 from fddbench.campaign.rules.model import Strict
+from fddbench.design.recipe_entries import Matrix, ReferenceEntry, Row, UncertaintyEntry, WeightsEntry
 from fddbench.errors import DesignError
-from fddbench.systems import StateSpace
 
-__all__ = ["Recipe", "ReferenceEntry"]
+__all__ = ["Recipe"]
 
-Number = Annotated[float, Field(allow_inf_nan=False)]
-Row = Annotated[tuple[Number, ...], Field(min_length=1)]
 _SECOND_STEP = 0.02
-
-
-class ReferenceEntry(Strict):
-    """Diagonal reference model ``d_i + c_i b_i / (s - a_i)``.
-
-    Attributes
-    ----------
-    a, b, c, d : numbers, one per fault
-        Without a, b and c the constant gain d.
-    """
-
-    a: Row | None = None
-    b: Row | None = None
-    c: Row | None = None
-    d: Row
-
-    def system(self) -> StateSpace:
-        """Return it as a system."""
-        a, b, c, d = self.a, self.b, self.c, self.d
-        if a is None and b is None and c is None:
-            return StateSpace.gain(np.diag(d))
-        if a is None or b is None or c is None or not len(a) == len(b) == len(c) == len(d):
-            raise DesignError("a reference has d alone, or a, b, c and d of one length")
-        return StateSpace.diagonal(a, b, c, d)
+_TAKES = {
+    "fixed_reference": {"reference", "uncertainty", "weights", "solver", "relax"},
+    "free_reference": {"reference", "uncertainty", "weights", "solver", "relax"},
+    "fixed_poles": {"fixed_poles", "uncertainty", "weights", "solver", "relax"},
+    "exact_inverse": set(),
+}
+"""Keys that mean something to a method; others are refused with it."""
 
 
 class Recipe(Strict):
@@ -47,10 +27,19 @@ class Recipe(Strict):
     ----------
     plant : str, or mapping of str to matrix
         A benchmark with `matrices`, or the fields of `fddbench.systems.UncertainPlant` themselves.
-    method : {"fixed_reference", "free_reference", "exact_inverse"}
-        `synthesize`, `optimize_reference` (Algorithm 1 from this reference), or ``r = Df⁻¹ (y - C x̂ - D u)``.
+    method : {"fixed_reference", "free_reference", "fixed_poles", "exact_inverse"}
+        `synthesize`, `optimize_reference` (Algorithm 1 from this reference), `optimize_fixed_poles`, or
+        ``r = Df⁻¹ (y - C x̂ - D u)``.
     reference : ReferenceEntry
-        The identity when left out.
+        The identity when left out. What is free in Algorithm 1 is its diagonal, or its triangle if it has one.
+    fixed_poles : numbers, one per fault
+        Poles of the diagonal reference [rad/s].
+    uncertainty : UncertaintyEntry
+        What is not known about the plant; norm-bounded when left out.
+    weights : WeightsEntry
+        Sizes of faults, disturbances and inputs; one when left out.
+    solver : {"CLARABEL", "SCS", "MOSEK"}
+        For the linear matrix inequalities.
     relax : float
         How much larger than the optimum γ of the filter that flies may be [-].
     window_s, confirm_s : float
@@ -59,10 +48,29 @@ class Recipe(Strict):
         Written by the command: γ of this filter, the optimum, the lower bound, margins of the certificate.
     """
 
-    plant: str | dict[str, tuple[Row, ...]]
-    method: Literal["fixed_reference", "free_reference", "exact_inverse"]
+    plant: str | dict[str, Matrix]
+    method: Literal["fixed_reference", "free_reference", "fixed_poles", "exact_inverse"]
     reference: ReferenceEntry | None = None
+    fixed_poles: Row | None = None
+    uncertainty: UncertaintyEntry | None = None
+    weights: WeightsEntry | None = None
+    solver: Literal["CLARABEL", "SCS", "MOSEK"] = "CLARABEL"
     relax: Annotated[float, Field(gt=0.0, le=1.0)] = _SECOND_STEP
     window_s: Annotated[float, Field(gt=0.0)]
     confirm_s: Annotated[float, Field(ge=0.0)]
     found: dict[str, Any] = Field(default_factory=dict)
+
+    def require_keys(self) -> None:
+        """Refuse keys that the method does not look at, and a method without what it needs."""
+        about = {"reference", "fixed_poles", "uncertainty", "weights", "solver", "relax"}
+        idle = (about & self.model_fields_set) - _TAKES[self.method]
+        if idle:
+            takes = ", ".join(sorted(_TAKES[self.method])) or "none of these keys"
+            raise DesignError(
+                f"recipe.method {self.method} does not look at {', '.join(sorted(idle))}; it takes {takes}. "
+                "Take the key away, or choose another method"
+            )
+        if self.method == "fixed_poles" and self.fixed_poles is None:
+            raise DesignError(
+                "recipe.method fixed_poles needs fixed_poles: [a_1, ...], one negative pole per fault [rad/s]"
+            )

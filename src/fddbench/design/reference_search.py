@@ -83,10 +83,12 @@ def optimize_reference(
     """
     freedom = freedom or Freedom.diagonal(reference)
     current = reference if hminus_index(reference).value >= 1.0 else normalised(reference, freedom)
-    task = prepare(plant, current, uncertainty or NormBounded(), weights, solver)
+    task = prepare(plant, current, uncertainty or NormBounded(), weights, solver, moving=True)
     first = optimal(task)
-    history, solution = [Iteration(first.gamma, current)], first.solution
+    history, solution = [Iteration(min(first.gamma, task.idle_gamma), current)], first.solution
     for _ in range(iterations):
+        if solution is None:  # followed exactly: there is nothing to gain
+            break
         task = replace(task, reference=normalised(current, freedom))
         step = _step(task, solution, freedom)
         if step is None or step[0].gamma > history[-1].gamma:
@@ -97,7 +99,7 @@ def optimize_reference(
             break
     final = normalised(current, freedom) if len(history) > 1 else current
     design = synthesize(plant, final, uncertainty, weights, solver=solver, relax=relax)
-    bound = lower_bound_diagonal(task.plants, task.blocks) if _is_diagonal(reference, freedom) else 0.0
+    bound = lower_bound_diagonal(task.scaled, task.blocks).gamma if _is_diagonal(reference, freedom) else 0.0
     return ReferenceSearch(design=design, iterations=tuple(history), lower_bound=bound)
 
 
@@ -128,13 +130,14 @@ def optimize_fixed_poles(
     if a.shape != (n_f,) or np.any(a >= 0.0):
         raise DesignError(f"need one negative pole for each of the {n_f} faults (columns of Bf), got {a}.")
     start = StateSpace.diagonal(a, np.ones(n_f), np.zeros(n_f), np.ones(n_f))
-    task = prepare(plant, start, uncertainty or NormBounded(), weights, solver)
-    variables, multiplier = FilterVariables(task.scaled[0]), MultiplierVariables(task.blocks)
+    task = prepare(plant, start, uncertainty or NormBounded(), weights, solver, moving=True)
+    variables, multiplier, margins = FilterVariables(task.scaled[0]), MultiplierVariables(task.blocks), task.margins
     c, d, gamma = cp.Variable(n_f), cp.Variable(n_f), cp.Variable()
-    constraints = [*positive(variables), d >= 1.0, d - cp.multiply(1.0 / a, c) >= 1.0]
+    constraints = [*positive(variables, margins), d >= 1.0, d - cp.multiply(1.0 / a, c) >= 1.0]
+    slow = task.coordinates.reference(start)
     for augmented in task.scaled:
-        quadruple = augmented.with_reference(start.A, start.B, cp.diag(c), cp.diag(d))
-        constraints += inequality(upper_part(augmented, quadruple, variables, multiplier, gamma))
+        quadruple = augmented.with_reference(slow.A, slow.B, cp.diag(c), cp.diag(d))
+        constraints += inequality(upper_part(augmented, quadruple, variables, multiplier, gamma), margins, gamma)
     solve(
         cp.Problem(cp.Minimize(gamma), constraints), solver, "reference of fixed poles", infeasible="no filter exists."
     )
@@ -168,22 +171,23 @@ def _is_diagonal(reference: StateSpace, freedom: Freedom) -> bool:
 def _step(task: Task, about: Solution, freedom: Freedom) -> tuple[Iteration, Solution] | None:
     """Step 5 of Algorithm 1 about the task's reference, (66)-(68); None when the solver gives no reliable answer."""
     cp = modelling()
-    reference = task.reference
+    reference, margins = task.coordinates.reference(task.reference), task.margins
     variables, multiplier = FilterVariables(task.scaled[0]), MultiplierVariables(task.blocks)
     moving, gamma = ReferenceVariables(reference, freedom), cp.Variable()
-    scale = _balance(task, about)
-    constraints = positive(variables) + sensitivity_about(moving, reference, storage(reference, task.solver))
+    scale = _balance(task, about, reference)
+    constraints = positive(variables, margins) + sensitivity_about(moving, reference, storage(reference, task.solver))
     for plant in task.scaled:
-        constraints += inequality_about(plant, variables, multiplier, moving, gamma, (about, reference), scale)
+        constraints += inequality_about(plant, variables, multiplier, moving, gamma, (about, reference), scale, margins)
     if attempt(cp.Problem(cp.Minimize(gamma), constraints), task.solver, "Algorithm 1") != "optimal":
         return None
-    return Iteration(float(gamma.value), moving.value()), variables.value(task.plants[0].n_y)
+    found = task.coordinates.reference_back(moving.value())
+    return Iteration(float(gamma.value), found), variables.value(task.plants[0].n_y)
 
 
-def _balance(task: Task, about: Solution) -> float:
+def _balance(task: Task, about: Solution, reference: StateSpace) -> float:
     """Scale that gives Q and R of (59) the same norm."""
     E1 = task.plants[0].E1
     if not E1.shape[1]:
         return 1.0
-    Q, R = np.vstack([about.Z @ E1, about.Y @ E1]), np.hstack([task.reference.A, task.reference.B])
+    Q, R = np.vstack([about.Z @ E1, about.Y @ E1]), np.hstack([reference.A, reference.B])
     return float(np.sqrt(np.linalg.norm(R, 2) / np.linalg.norm(Q, 2)))

@@ -8,9 +8,10 @@ lemma numbers of this package are those of that paper.
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from fddbench.design.admissible import require_admissible
-from fddbench.design.bounds import lower_bound
-from fddbench.design.coordinates import balancing
+from fddbench.design.coordinates import Coordinates
 from fddbench.design.norms import hinf_norm
 from fddbench.design.problem import augment
 from fddbench.design.proof import Proven, Task
@@ -36,7 +37,7 @@ class Design(Proven):
     idle_gamma : float
         γ of the residual that is always zero, ``‖T_ref W_f‖∞`` [-].
     moderate : Proven or None
-        Filter of the second step with its own larger γ and certificate.
+        Filter of the second step with its own larger γ and certificate; a filter that follows exactly is its own.
     """
 
     reference: StateSpace
@@ -46,9 +47,18 @@ class Design(Proven):
 
 
 def prepare(
-    plant: UncertainPlant, reference: StateSpace, uncertainty: Uncertainty, weights: Weights | None, solver: str
+    plant: UncertainPlant,
+    reference: StateSpace,
+    uncertainty: Uncertainty,
+    weights: Weights | None,
+    solver: str,
+    *,
+    moving: bool = False,
 ) -> Task:
-    """Return the optimisation for admissible data; refuses all other data with advice."""
+    """Return the optimisation for admissible data; refuses all other data with advice.
+
+    The coordinates of a reference that is `moving` are its own, since what is free in it are entries of its matrices.
+    """
     members = uncertainty.vertices if isinstance(uncertainty, Polytope) else (plant,)
     for name in ("A", "Bf", "Bd", "B", "C", "Df", "Dd", "D"):
         ours, theirs = getattr(plant, name).shape, getattr(members[0], name).shape
@@ -60,10 +70,21 @@ def prepare(
         )
     blocks = () if isinstance(uncertainty, Polytope) else blocks_of(uncertainty, plant)
     plants = tuple(augment(member, reference, weights) for member in members)
-    require_admissible(members, reference, uncertainty, blocks, solver)
-    idle = idle_gamma(reference, plant, weights)
+    if not reference.stable():
+        raise DesignError(
+            f"the reference is unstable: poles {np.round(reference.poles(), 4)}; give A_ref negative eigenvalues."
+        )
+    idle, W_f = idle_gamma(reference, plant, weights), (weights or Weights()).systems(plant.inputs)[0]
+    require_admissible(members, reference, uncertainty, blocks, solver, W_f=W_f, idle=idle)
+    seen = StateSpace.gain(np.eye(plant.inputs[0])) if moving else reference
+    coordinates = Coordinates.of(plants[0], seen, blocks, unit=1.0 if moving or not idle else idle)
     return Task(
-        plants=plants, blocks=blocks, reference=reference, solver=solver, T=balancing(plants[0]), idle_gamma=idle
+        plants=plants,
+        blocks=blocks,
+        reference=reference,
+        solver=solver,
+        coordinates=coordinates,
+        idle_gamma=idle,
     )
 
 
@@ -109,11 +130,11 @@ def synthesize(
     """
     task = prepare(plant, reference, uncertainty or NormBounded(), weights, solver)
     best = optimal(task)
-    refuse_idle(best.gamma, task.idle_gamma)
+    refuse_idle(task, best.gamma)
     second = None
     if relax is not None:
-        second = moderate(task, best.gamma, relax)
-    bound = lower_bound(task.plants, reference, task.blocks)
+        second = best if best.exact else moderate(task, best.gamma, relax)
+    bound = task.lower_bound().gamma
     return Design(**vars(best), reference=reference, lower_bound=bound, idle_gamma=task.idle_gamma, moderate=second)
 
 

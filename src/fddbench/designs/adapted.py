@@ -68,6 +68,8 @@ class Adapted:
         if not isinstance(verdict, Verdict):
             raise DesignError(f"a step gives (state, Verdict), got {type(verdict).__name__} as verdict")
         n_cases = np.shape(verdict.residual)[-1:]
+        if not n_cases:
+            raise DesignError("a verdict needs residual of shape (n_cases,), got (): a row of numbers, not one")
         shapes: dict[str, tuple[Any, tuple[int, ...]]] = {"residual": (verdict.residual, n_cases)}
         if self.isolates:
             shapes["declared"] = (verdict.declared, (len(self.watches), *n_cases))
@@ -86,7 +88,7 @@ class Adapted:
         wrong = [
             f"{name} of shape {need}, got {np.shape(value)}"
             for name, (value, need) in shapes.items()
-            if np.shape(value) != need or not n_cases
+            if np.shape(value) != need
         ]
         if wrong:
             raise DesignError(f"a verdict needs {'; '.join(wrong)}")

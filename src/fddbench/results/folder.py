@@ -5,22 +5,24 @@ import os
 import re
 import shutil
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from difflib import unified_diff
 from pathlib import Path
 
 from fddbench.errors import ResultsError
 from fddbench.results.shards import write_bytes
 
-__all__ = ["claim", "locked", "provenance_of", "refuse_foreign"]
+__all__ = ["RESERVED", "claim", "locked", "provenance_of", "refuse_foreign"]
 
 _PROVENANCE = "provenance.json"
 _WRITTEN = ("campaign.yaml", "detectors", "manifest.jsonl", _PROVENANCE, "rows", "events", "report.html")
 _OURS = (*_WRITTEN, ".lock", ".pid")
+RESERVED = frozenset(_OURS) - {"detectors"}
+"""Names in a folder of results that no file beside a campaign can have when it travels there."""
 _LEFT = re.compile(r"\..+\.[0-9]+\.tmp")
 """What a crash in the middle of a write leaves behind."""
 _PLUGIN = re.compile(r"[A-Za-z_][A-Za-z0-9_-]*(\.[A-Za-z0-9_-]+)*")
-"""Name of a file of a plug-in beside a campaign; never a way out of the folder."""
+"""Part of the name of a file of a plug-in beside a campaign; never a way out of the folder."""
 
 
 def claim(folder: Path, *, files: Mapping[str, bytes], provenance: Mapping[str, object], fresh: bool) -> bool:
@@ -64,7 +66,7 @@ def refuse_foreign(folder: Path) -> None:
     """
     if folder.is_dir():
         names = sorted(path.name for path in folder.iterdir())
-        ours = {*_OURS, *_carried(folder)}
+        ours = {*_OURS, *(name.parts[0] for name in _carried(folder))}
         foreign = [name for name in names if name not in ours and not _LEFT.fullmatch(name)]
         if foreign:
             more = ", ..." if len(foreign) > 3 else ""
@@ -75,13 +77,14 @@ def refuse_foreign(folder: Path) -> None:
         raise ResultsError(f"{folder} is a file, no folder of results; name another with --out")
 
 
-def _carried(folder: Path) -> set[str]:
+def _carried(folder: Path) -> list[Path]:
     """Names in the folder of what the campaign's own kinds came from, as its provenance lists them."""
     try:
         listed = provenance_of(folder).get("files")
     except ResultsError:
-        return set()
-    return {name for name in listed if _PLUGIN.fullmatch(name)} if isinstance(listed, dict) else set()
+        return []
+    names = [Path(name) for name in listed] if isinstance(listed, dict) else []
+    return [name for name in names if name.parts and all(_PLUGIN.fullmatch(part) for part in name.parts)]
 
 
 def _put_back(folder: Path, files: Mapping[str, bytes]) -> None:
@@ -155,7 +158,12 @@ def locked(folder: Path) -> Iterator[None]:
 
 def _clear(folder: Path) -> None:
     """Remove what fddbench writes, and nothing else; a link is removed, not what it points to."""
-    for name in (*_carried(folder), *_WRITTEN):
+    for carried in _carried(folder):
+        (folder / carried).unlink(missing_ok=True)
+        for parent in carried.parents[:-1]:  # folders that are empty now
+            with suppress(OSError):
+                (folder / parent).rmdir()
+    for name in _WRITTEN:
         path = folder / name
         if path.is_dir() and not path.is_symlink():
             shutil.rmtree(path)
@@ -167,15 +175,9 @@ def _difference(folder: Path, files: Mapping[str, bytes]) -> str:
     """What differs between the folder's campaign and this one, as a short diff."""
     lines: list[str] = []
     for name, content in sorted(files.items(), key=lambda item: item[0] != "campaign.yaml"):
-        before = (
-            (folder / name).read_bytes().decode("utf-8", "replace").splitlines() if (folder / name).is_file() else []
-        )
-        text = content.decode("utf-8", "replace")
-        lines += [
-            line
-            for line in unified_diff(before, text.splitlines(), "there", "here", n=0, lineterm="")
-            if line[:3] != "@@ "
-        ]
+        before = (folder / name).read_bytes() if (folder / name).is_file() else b""
+        if before != content:
+            lines = [f"{name}: other bytes"] if b"\0" in content + before else _lines(before, content)
         if lines:
             break
     shown = "\n".join(f"  {line}" for line in lines[:12]) or "  (another version of a design or plug-in)"
@@ -183,3 +185,9 @@ def _difference(folder: Path, files: Mapping[str, bytes]) -> str:
         f"{folder} holds results of another campaign:\n{shown}\n"
         "Name another folder with --out, or replace the results with --fresh."
     )
+
+
+def _lines(before: bytes, after: bytes) -> list[str]:
+    """What differs between two texts, without their places."""
+    there, here = (content.decode("utf-8", "replace").splitlines() for content in (before, after))
+    return [line for line in unified_diff(there, here, "there", "here", n=0, lineterm="") if line[:3] != "@@ "]

@@ -51,8 +51,9 @@ def _tables(folder: Path, which: str, columns: Sequence[str] | None = None) -> S
     provenance_of(folder)
     found = []
     for shard in shards(folder):
-        name, sha256 = getattr(shard, which), getattr(shard, f"{which}_sha256")
-        if name is not None:
+        listed = {"rows": (shard.rows, shard.rows_sha256), "events": (shard.events, shard.events_sha256)}
+        name, sha256 = listed[which]
+        if name is not None and sha256 is not None:
             found.append(read_table(folder / name, sha256, columns))
     return found
 

@@ -1,5 +1,7 @@
 """From a campaign to what flies it."""
 
+from typing import Any
+
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.plan import Plan, plan
 from fddbench.designs.adapted import Adapted
@@ -7,6 +9,7 @@ from fddbench.designs.building import build_detectors
 from fddbench.errors import FddbenchError, place_of, reason_of
 from fddbench.interfaces import Loop, Options
 from fddbench.metrics.scoring import Scoring
+from fddbench.plugin_files import noticed_reads
 from fddbench.runner.assembly import Assembly
 from fddbench.runner.soundness import require_sound
 
@@ -29,13 +32,27 @@ def loop_of(planned: Plan) -> Loop:
         faults=tuple(scenario.faults for scenario in planned.scenarios),
     )
     try:
-        return campaign.bench.loop(options)
+        with noticed_reads(campaign.path.parent) as read:
+            loop = campaign.bench.loop(options)
     except FddbenchError:
         raise
     except (Exception, SystemExit) as error:
         raise FddbenchError(
             f"benchmark {campaign.benchmark!r} cannot make its loop: {reason_of(error)}{place_of(error)}"
         ) from error
+    stray = sorted(set(read) - set(campaign.beside))
+    if stray and campaign.beside:
+        raise FddbenchError(
+            f"benchmark {campaign.benchmark!r} reads {', '.join(stray)} beside the campaign, which would not travel with the "
+            f"results; declare it in its Python file: FILES = ({', '.join(map(repr, stray))},)"
+        )
+    return loop
+
+
+def _foreign(part: Any) -> bool:
+    """Whether a class, or the class of a value, is somebody else's."""
+    module = getattr(part, "__module__", None) or type(part).__module__
+    return not module.startswith(("fddbench.", "builtins"))
 
 
 def assemble(campaign: Campaign) -> Assembly:
@@ -56,6 +73,7 @@ def assemble(campaign: Campaign) -> Assembly:
         detectors={name: Adapted(detector, loop.bus) for name, detector in found.items()},
         scoring=Scoring(loop.bus.names, n_faults, campaign.sample_s),
     )
-    if any(not type(own).__module__.startswith("fddbench.") for own in (campaign.bench, campaign.plant, loop)):
+    faults = [fault for scenario in campaign.scenarios for fault in scenario.faults]
+    if any(map(_foreign, (campaign.bench, campaign.plant, loop, *campaign.chosen.values(), *faults))):
         require_sound(assembly)
     return assembly

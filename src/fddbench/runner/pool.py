@@ -5,6 +5,7 @@ import os
 import signal
 import sys
 from collections.abc import Generator, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 from fddbench.errors import FddbenchError
@@ -15,6 +16,7 @@ from fddbench.runner.work import fly_and_write
 __all__ = ["fly_all"]
 
 _ATTEMPTS = 3
+_SAFE_PATH = "PYTHONSAFEPATH"
 Work = tuple[str, str, str]
 """Folder of results, the campaign's sha256 and the back end."""
 
@@ -54,7 +56,22 @@ def _once(work: Work, chunks: Sequence[Spans], *, jobs: int, threads: bool) -> I
 
     options = {"backend": "threading"} if threads else {"backend": "loky", "initializer": _begin_worker}
     pool = Parallel(n_jobs=jobs, return_as="generator_unordered", **options)
-    yield from pool(delayed(fly_and_write)(*work, chunk) for chunk in chunks)
+    with _safe_path():
+        yield from pool(delayed(fly_and_write)(*work, chunk) for chunk in chunks)
+
+
+@contextmanager
+def _safe_path() -> Iterator[None]:
+    """Begin workers without the working folder in their path: a ``types.py`` in it would be theirs instead of Python's."""
+    before = os.environ.get(_SAFE_PATH)
+    os.environ[_SAFE_PATH] = "1"
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[_SAFE_PATH]
+        else:
+            os.environ[_SAFE_PATH] = before
 
 
 def _begin_worker() -> None:

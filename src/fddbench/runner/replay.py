@@ -1,5 +1,6 @@
 """Flies cases of a finished campaign again and keeps the signals: for pictures and for a close look."""
 
+import re
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -22,6 +23,8 @@ __all__ = ["MOST_CASES", "replay", "replay_campaign", "sampled_cases"]
 
 MOST_CASES = 50
 """Cases of a scenario that a picture shows, beside the worst ones."""
+
+_NUMBER = re.compile(r"_[0-9]+$")
 
 Cases = npt.NDArray[np.int64]
 
@@ -102,7 +105,9 @@ def _record(
     if planned.k0 is not None and seconds is not None:
         last = min(last, planned.k0 + round(seconds / sample_s))
     sources = {**dict.fromkeys(assembly.loop.bus.signals, "measured"), **dict.fromkeys(assembly.loop.truth, "truth")}
-    kept = [f"{source}:{name}" for name, source in sources.items() if signals is None or name in signals]
+    # a row of a signal, q_deg_s_2, is asked for by its number or with all the others, q_deg_s
+    asked = {name for full in signals or () for name in (full, _NUMBER.sub("", full))}
+    kept = [f"{source}:{name}" for name, source in sources.items() if signals is None or name in asked]
     shown = {name: ("n_declared", "residual", *detector.recorded) for name, detector in assembly.detectors.items()}
     kept += [f"{detector}:{name}" for detector, names in shown.items() for name in names]
     found = flyer.fly(_shortened(assembly, batch, last), kept).recorded

@@ -113,20 +113,22 @@ def star(upper: StateSpace, lower: StateSpace, n_down: int, n_up: int) -> StateS
     y_out, v_out = upper.n_outputs - n_down, upper.n_outputs  # and among the outputs (z, y, v, e)
     inside = [*range(v, v + n_up), *range(y, y + n_down)]
     sources = [*range(v_out, v_out + n_up), *range(y_out, y_out + n_down)]
-    return _closed(append(upper, lower), inside, sources)
+    return _closed(append(upper, lower), inside, sources, n_up)
 
 
-def _closed(system: StateSpace, inside: list[int], sources: list[int]) -> StateSpace:
-    """Inputs `inside` are the outputs `sources`, one by one; the rest stays, in its order."""
+def _closed(system: StateSpace, inside: list[int], sources: list[int], n_up: int) -> StateSpace:
+    """Inputs `inside` are the outputs `sources`, one by one, the first `n_up` fed by the others; the rest stays."""
     free = [j for j in range(system.n_inputs) if j not in set(inside)]
     shown = [i for i in range(system.n_outputs) if i not in set(sources)]
     B, C, D = system.B, system.C, system.D
-    loop = np.eye(len(inside)) - D[np.ix_(sources, inside)]
-    if len(inside) and np.linalg.cond(loop) > 1e12:
+    around = D[np.ix_(sources, inside)]
+    once = np.eye(n_up) - around[:n_up, n_up:] @ around[n_up:, :n_up]  # one way round: the units of signals cancel
+    if n_up and np.linalg.cond(once) > 1e12:
         raise MisfitError(
             "the loop is ill-posed: the feedthroughs D around it multiply to one, so that its signals have no or many "
-            f"solutions (condition of I - D {np.linalg.cond(loop):.3g}). Put a lag or another gain into the loop."
+            f"solutions (condition of I - D D' {np.linalg.cond(once):.3g}). Put a lag or another gain into the loop."
         )
+    loop = np.eye(len(inside)) - around
     fed = np.linalg.solve(loop, np.hstack([C[sources], D[np.ix_(sources, free)]]))
     states, signals = fed[:, : system.order], fed[:, system.order :]
     return StateSpace(

@@ -2,9 +2,12 @@
 
 from typing import Any
 
+import numpy as np
+
 from fddbench.blocks.block import NO_DRAWS, NOTHING
 from fddbench.blocks.drawn import Draws
 from fddbench.blocks.layout import Layout, Nothing, Row, Rows
+from fddbench.errors import FddbenchError
 
 __all__ = ["VoterBlock"]
 
@@ -33,7 +36,9 @@ class VoterBlock:
     def step(self, x: Any, c: Nothing, n: Nothing, sensors: Rows) -> tuple[Any, Row]:
         """State at the next sample, and the voted signal at this one."""
         del c, n
-        if self.keeps:
-            after, voted = self.voter.step(x, sensors)
-            return after, voted
-        return x, self.voter.vote(sensors)
+        after, voted = self.voter.step(x, sensors) if self.keeps else (x, self.voter.vote(sensors))
+        if np.shape(voted) != np.shape(sensors)[1:]:
+            raise FddbenchError(
+                f"the voter {type(self.voter).__name__} gives a signal of shape {np.shape(voted)}, needs (n_cases,): one row"
+            )
+        return after, voted
