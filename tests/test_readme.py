@@ -45,7 +45,7 @@ def test_the_table_of_scores_is_the_kept_one():
         line = ours[name.lower().replace("-", "_")]
         assert float(median) == pytest.approx(line["detection_time_median_s"] * 100)
         assert float(largest) == pytest.approx(line["detection_time_max_s"] * 100)
-        assert (int(hits), int(flights)) == (line["true_detection"], line["flown"])
+        assert (int(hits), int(flights)) == (line["right"], line["flown"])
 
 
 @pytest.mark.skipif(shutil.which("make") is None, reason="make is not here")

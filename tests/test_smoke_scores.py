@@ -4,7 +4,7 @@ import yaml
 
 from fddbench import gallery
 from fddbench.campaign.load import read_campaign
-from fddbench.reporting.scores import scores
+from fddbench.reporting.scores import false_alarms, scores
 from fddbench.results.table import load
 from fddbench.runner.run import run_campaign
 
@@ -16,7 +16,9 @@ def test_smoke_scores(tmp_path):
     assert kept["provenance"]["campaign_sha256"] == campaign.sha256, (
         "campaign or designs have changed: run `make scores` and read the difference"
     )
-    assert scores(load(tmp_path / "smoke")) == kept["scores"]
+    rows = load(tmp_path / "smoke")
+    assert scores(rows) == kept["scores"]
+    assert false_alarms(rows) == kept["false_alarms"]
 
 
 def test_kept_scores_belong_to_the_shipped_campaigns():

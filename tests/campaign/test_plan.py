@@ -98,8 +98,8 @@ def test_says_what_would_run(write):
         assert part in text
 
 
-def test_says_where_rows_may_be_censored(write):
+def test_says_where_rows_may_be_undecided(write):
     path = write()
-    assert "censored" not in describe(plan(read_campaign(path)))
+    assert "undecided" not in describe(plan(read_campaign(path)))
     text = describe(plan(read_campaign(path, ["scenarios.jam_a.duration_s=20"])))
-    assert "censored, not missed, where the flight ends before its limit: jam_a" in text
+    assert "undecided, not missed, where the flight ends before its limit: jam_a" in text

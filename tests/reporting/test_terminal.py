@@ -3,6 +3,7 @@
 import os
 from pathlib import Path
 
+import pandas as pd
 import pytest
 
 from fddbench.metrics.alarms import summarize_alarms
@@ -53,6 +54,17 @@ def test_what_is_left_out_is_in_the_wide_table(make_rows):
     for head in ("margin", "bias", "changes", "max/limit"):
         assert head not in narrow
         assert head in wide
+
+
+def test_what_was_not_flown_is_seen_however_narrow_it_is(make_rows):
+    names = ("a_detector_with_a_very_long_name_indeed", "a_detector_with_a_very_short_name_indeed")
+    lost = {1: ("error", "ValueError: x")}
+    assert "20000/20000" not in text_of(make_rows(("jam_a",), names, 50).pipe(_as_many, 400))
+    assert "19600/20000" in text_of(make_rows(("jam_a",), names, 50, lost).pipe(_as_many, 400))
+
+
+def _as_many(rows, times):
+    return pd.concat([rows.assign(run=rows["run"] + 1000 * i) for i in range(times)], ignore_index=True)
 
 
 def test_healthy_sites_declared_come_first(make_rows):

@@ -1,7 +1,7 @@
 """The summary as plain text, for the end of a run in a terminal."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import pandas as pd
@@ -96,7 +96,10 @@ def to_text(summary: pd.DataFrame, alarms: pd.DataFrame, *, wide: bool = False) 
     if summary.empty:
         return "no rows: nothing was flown"
     lines, of_alarms = summary.to_dict("records"), alarms.to_dict("records")
-    columns, width = _fitting(_OUTCOMES, lines, wide=wide)
+    # flights that were not flown are seen in every table
+    lost = any(line["flown"] < line["flights"] for line in lines)
+    outcomes = [replace(column, leaves=1) if lost and column.head == "flown" else column for column in _OUTCOMES]
+    columns, width = _fitting(outcomes, lines, wide=wide)
     alarm_columns, alarm_width = _fitting(_ALARMS, of_alarms, wide=wide)
     # the same short name in both tables
     names = shortened((str(line["detector"]) for line in lines), min(width, alarm_width))
@@ -123,7 +126,8 @@ def _scenarios(columns: Sequence[_Column], lines: Sequence[Line], names: Mapping
 def _heading(line: Line, name: str) -> str:
     limit_s = line["detection_time_limit_s"]
     limit = "healthy" if line["healthy"] else f"limit {limit_s:g} s" if present(limit_s) else ""
-    notes = ", ".join(filter(None, (limit, _pooled(line))))
+    number = f"{line['flights']} flight{'s' if line['flights'] > 1 else ''}"
+    notes = ", ".join(filter(None, (limit, number, _pooled(line))))
     return f"{name} ({notes})" if notes else name
 
 

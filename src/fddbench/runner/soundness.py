@@ -66,4 +66,11 @@ def _shown(loop: Loop, seen: Any) -> str:
         return f"truth announces {sorted(loop.truth)}, the step shows {sorted(seen.truth)}; make them equal"
     if np.shape(seen.departed) != (2,):
         return f"departed needs the shape (n_cases,), got {np.shape(seen.departed)}"
+    if seen.added is not None and np.shape(seen.added) != (len(loop.bus.sites), 2):
+        return (
+            f"added needs the shape ({len(loop.bus.sites)}, n_cases), a row for every site, got {np.shape(seen.added)}"
+        )
+    for name, error in seen.voted.items():
+        if np.shape(error) != (2,) or name not in loop.bus.signals:
+            return f"voted has the error of voted signals of the bus, (n_cases,) each; got {name} of shape {np.shape(error)}"
     return ""

@@ -46,7 +46,8 @@ class Loop:
         u = FEEDBACK * c.gain * 0.5 * (q[0] + q[1]) - np.where(sample >= 100.0, c.step_deg, 0.0)
         after = product(column(self.Ad), x.x) + product(column(self.Bd), np.stack([u]))
         bus, gone = SimpleNamespace(q_deg_s=q, elevator_deg=u), np.abs(x.x[1]) > 60.0
-        return State(x=after, faults=faults), Sample(measured=bus, truth={"q_true_deg_s": x.x[1]}, departed=gone)
+        added, truth = q - (x.x[1] + 0.02 * n.q), {"q_true_deg_s": x.x[1]}
+        return State(x=after, faults=faults), Sample(measured=bus, truth=truth, departed=gone, added=added)
 
 
 class ShortPeriod(SinglePlant):
