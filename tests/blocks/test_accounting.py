@@ -51,3 +51,14 @@ def test_operations_belong_to_the_blocks_that_were_stepping() -> None:
     found = cost(trace(_SlowLoop().step, state=1, u=1))
     assert found.by_block == {"_SlowLoop": {"mul": 1, "min": 1}, "_SlowLoop._Filter": {"mul": 2, "add": 1}}
     assert sum(sum(counted.values()) for counted in found.by_block.values()) == sum(found.operations.values())
+
+
+def test_a_product_that_is_used_twice_is_no_multiply_add() -> None:
+    """A signal processor adds a product that nobody else needs in the same cycle; one used twice it has to keep."""
+
+    def twice(state: Any) -> dict[str, Any]:
+        product_ = 0.9 * state
+        return {"state": product_ + 1.0, "other": product_ + 2.0}
+
+    assert cost(trace(twice, state=1)).multiply_adds == 0
+    assert cost(trace(lambda state: {"state": 0.9 * state + 1.0}, state=1)).multiply_adds == 1

@@ -119,3 +119,30 @@ def test_schema_is_json_and_knows_the_faults():
     text = json.dumps(campaign_schema())
     assert "amplitude_percent" in text
     assert "truncated_normal" in text
+
+
+@pytest.mark.parametrize(("half_width", "refused"), [(0.125, True), (0.127, False)])
+def test_a_window_must_hold_a_tenth_of_the_distribution(write, half_width, refused):
+    """Within 0.12566 sigma of its mean a normal distribution has 10 %."""
+    window = (
+        f"{{truncated_normal: {{mean: 2e5, std: 1e4, low: {2e5 - half_width * 1e4}, high: {2e5 + half_width * 1e4}}}}}"
+    )
+    path = write(**{"{uniform: [150e3, 200e3]}": window})
+    if refused:
+        with pytest.raises(CampaignError, match="needs at least 10 %"):
+            read_campaign(path)
+    else:
+        read_campaign(path)
+
+
+@pytest.mark.parametrize(("end_s", "refused"), [(4.5, True), (4.51, False)])
+def test_a_fault_may_not_end_with_its_last_onset(write, end_s, refused):
+    jam = "{kind: jam, sites: [r1], onset_s: 4, amplitude_percent: 10}"
+    path = write(
+        **{jam: f"{{kind: jam, sites: [r1, r2], onset_s: 4, delay_s: 0.5, end_s: {end_s}, amplitude_percent: 10}}"}
+    )
+    if refused:
+        with pytest.raises(CampaignError, match=r"ends at 4.5 s, before its last site fails at 4.5 s"):
+            read_campaign(path)
+    else:
+        read_campaign(path)

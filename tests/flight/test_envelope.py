@@ -40,3 +40,14 @@ def test_each_limit_is_met_somewhere():
     v_cas = np.array([331.0, 300.0, 160.0, 240.0, 290.0])
     reasons = envelope.infeasible_reasons(mass, altitude, v_cas)
     assert [reason.split(":")[0] for reason in reasons] == ["above V_MO", "above M_MO", "buffet", "thrust", ""]
+
+
+def test_the_drag_rise_is_the_cube_beyond_its_mach_number():
+    """200 t at 30,000 ft and 320 kt: Mach 0.842, C_L 0.335; the formula of the docstring, by hand."""
+    mass, altitude, v_cas = one(200e3), one(30e3), one(320.0)
+    number, lift = envelope.mach(v_cas, altitude)[0], envelope.lift_coefficient(mass, altitude, v_cas)[0]
+    rise = number - 0.785 + 0.10 * (lift - 0.45)
+    assert 0.03 < rise < 0.06  # so that a square or a fourth power would be far off
+    q = envelope.dynamic_pressure_pa(v_cas, altitude)[0]
+    by_hand = (0.0165 + 0.041 * lift**2 + 20.0 * rise**3) * q * 361.6
+    np.testing.assert_allclose(envelope.level_flight_drag_n(mass, altitude, v_cas)[0], by_hand, rtol=1e-12)

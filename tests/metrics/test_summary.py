@@ -156,3 +156,8 @@ def test_empty_tables_and_documented_columns():
         assert found.empty
         assert all(field.metadata[b"about"] for field in schema)
     assert set(NEEDS) <= set(rows_schema(()).names)
+
+
+def test_the_limit_of_a_line_is_the_smallest_of_its_flights():
+    line = only(rows_of(RIGHT, RIGHT | {"run": 1, "detection_time_limit_s": 4.0}, RIGHT | {"run": 2}))
+    assert line.detection_time_limit_s == 4.0
