@@ -80,7 +80,7 @@ def _table(plan: Plan) -> Iterator[str]:
         yield "  " + "  ".join([*cells, faults]).rstrip()
     short = [scenario.name for scenario in plan.scenarios if _ends_before_limit(scenario, plan.campaign.sample_s)]
     if short:
-        text = f"Faults that are not found are undecided, not missed, where the flight ends before its limit: {', '.join(short)}"
+        text = f"Faults not found are undecided, not missed, where the flight ends before its limit: {', '.join(short)}"
         yield fill(text, _WIDTH)
     apart = [scenario.name for scenario in plan.scenarios if _begin_apart(scenario)]
     if apart:
