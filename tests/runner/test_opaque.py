@@ -208,7 +208,7 @@ def test_rows_code_without_batched_is_told_how_to_get_rows(tmp_path):
             tmp_path,
             SIDE_BY_SIDE.replace(", batched", "")
             .replace("), True, (", "), (")
-            .replace("axis=0) - 0.1", "axis=0)[:1] - 0.1"),
+            .replace("axis=0)) - 0.1", "axis=0)[:1]) - 0.1"),
         )
 
 

@@ -13,7 +13,7 @@ from fddbench.runner.assembly import Assembly, Batch
 from fddbench.runner.fused import shown
 from fddbench.runner.verdicts import verdicts_of
 
-__all__ = ["DetectorFlight", "feed_eagerly", "fly_eagerly"]
+__all__ = ["DetectorFlight", "feed_eagerly", "flown_only", "fly_eagerly"]
 
 _TILE = 50
 """Samples whose random numbers are drawn together; no part of any result."""
@@ -114,9 +114,9 @@ class DetectorFlight:
             parts.append(again.finish())
         return np.concatenate([score for score, _ in parts], axis=1), [text for _, texts in parts for text in texts]
 
-    def tape(self, n_time: int) -> dict[str, Floats]:
+    def tape(self) -> dict[str, Floats]:
         """What was kept, (n_time, 1, n_cases) each; not-a-number from where the detector raised on."""
-        found = {}
+        found, n_time = {}, int(self.constants.last.max()) + 1
         for full, rows in self.kept.items():
             found[full] = np.full((n_time, 1, len(self.batch.cases)), np.nan)
             if rows:
@@ -142,12 +142,17 @@ def fly_eagerly(
     scores, errors = {}, {}
     for flight in flights:
         scores[flight.name], errors[flight.name] = flight.finish()
-    ends = assembly.scoring.constants.unpack(batch.score_constants).last
+    for flight in flights:
+        tape |= flight.tape()
+    return scores, departed, errors, flown_only(assembly, batch, departed, tape)
+
+
+def flown_only(assembly: Assembly, batch: Batch, departed: Floats, tape: Mapping[str, Floats]) -> dict[str, Floats]:
+    """Recordings, not-a-number where a flight has departed or ended."""
+    ends = assembly.ends(batch)
     time = np.arange(int(ends.max()) + 1.0)[:, np.newaxis, np.newaxis]
     beyond = (time > ends) | (time > departed)
-    for flight in flights:
-        tape |= flight.tape(len(time))
-    return scores, departed, errors, {name: np.where(beyond, np.nan, rows) for name, rows in tape.items()}
+    return {name: np.where(beyond, np.nan, rows) for name, rows in tape.items()}
 
 
 def feed_eagerly(

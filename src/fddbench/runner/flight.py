@@ -12,7 +12,7 @@ from fddbench.blocks.flown import Flown
 from fddbench.interfaces import Floats, Sample
 from fddbench.metrics.scoring import Scoring
 from fddbench.runner.assembly import Assembly, Batch
-from fddbench.runner.eager import DetectorFlight, feed_eagerly, fly_eagerly
+from fddbench.runner.eager import DetectorFlight, feed_eagerly, flown_only, fly_eagerly
 from fddbench.runner.fused import Fused
 from fddbench.runner.given_up import GivenUp
 
@@ -145,7 +145,7 @@ class Flyer:
         )
         for flight in opaque:
             outcome.scores[flight.name], outcome.errors[flight.name] = flight.finish()
-            outcome.recorded |= flight.tape(int(assembly.ends(batch).max()) + 1)
+            outcome.recorded |= flown_only(assembly, batch, outcome.departed, flight.tape())
         return outcome
 
     def _tiles(self, batch: Batch, needed: tuple[str, ...], flights: Sequence[DetectorFlight]) -> Iterator[Flown]:
