@@ -408,7 +408,7 @@ WRONG_BENCHMARKS = {
         "truth announces ['q_true_deg_s'], the step shows ['q']; make them equal",
     ),
     "what faults add on one site only": (
-        "added=q - (x.x[1] + 0.02 * n.q)",
+        "added=q - healthy",
         "added=q[0]",
         "added needs the shape (2, n_cases), a row for every site, got (2,)",
     ),
