@@ -407,6 +407,16 @@ WRONG_BENCHMARKS = {
         'truth={"q"',
         "truth announces ['q_true_deg_s'], the step shows ['q']; make them equal",
     ),
+    "what faults add on one site only": (
+        "added=q - healthy",
+        "added=q[0]",
+        "added needs the shape (2, n_cases), a row for every site, got (2,)",
+    ),
+    "the error of a vote that is no signal": (
+        "voted={}",
+        'voted={"q_voted_deg_s": q[0]}',
+        "voted has the error of voted signals of the bus, (n_cases,) each; got q_voted_deg_s of shape (2,)",
+    ),
     "a unit nobody knows": (
         '"unit_name": "deg/s"',
         '"unit_name": "furlong"',

@@ -42,12 +42,13 @@ class Loop:
         return State(x=0.0, faults=self.faults.start(c.faults))
 
     def step(self, x, c, n, sample):
-        faults, q = self.faults.step(x.faults, c.faults, n.faults, x.x[1] + 0.02 * n.q, sample)
+        healthy = x.x[1] + 0.02 * n.q
+        faults, q = self.faults.step(x.faults, c.faults, n.faults, healthy, sample)
         u = FEEDBACK * c.gain * 0.5 * (q[0] + q[1]) - np.where(sample >= 100.0, c.step_deg, 0.0)
         after = product(column(self.Ad), x.x) + product(column(self.Bd), np.stack([u]))
         bus, gone = SimpleNamespace(q_deg_s=q, elevator_deg=u), np.abs(x.x[1]) > 60.0
-        added, truth = q - (x.x[1] + 0.02 * n.q), {"q_true_deg_s": x.x[1]}
-        return State(x=after, faults=faults), Sample(measured=bus, truth=truth, departed=gone, added=added)
+        seen = Sample(measured=bus, truth={"q_true_deg_s": x.x[1]}, departed=gone, added=q - healthy, voted={})
+        return State(x=after, faults=faults), seen
 
 
 class ShortPeriod(SinglePlant):
