@@ -163,7 +163,7 @@ def test_a_worker_of_another_program_writes_nothing(campaign, out, monkeypatch):
     own, before = fingerprint_of(campaign).sha256, everything(out)
     other_source(monkeypatch)
     with pytest.raises(ResultsError, match="a worker .* is another program than its parent .*fddbench/metrics"):
-        fly_and_write(str(out / "." / "."), own, "numpy", ((0, 2),))
+        fly_and_write(str(out / "." / "."), own, "numpy", (), ((0, 2),))
     assert everything(out) == before
 
 
