@@ -1,4 +1,4 @@
-"""Residual generators, eqs (14) and (15): one filter per fault that sees it and is blind to the others, whatever rho does."""
+"""A bank of residual generators: one per fault that sees it and is blind to the others, whatever rho does."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -6,85 +6,19 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from fddbench.design.geometric.affine import Box, at, family
+from fddbench.design.geometric.affine import Box, family
+from fddbench.design.geometric.generator import ResidualGenerator, identity_error
 from fddbench.design.geometric.invariance import unobservability_subspace
 from fddbench.design.geometric.one_state import one_state_row
-from fddbench.design.geometric.solvability import Solvability, require_solvable, solvability, span
+from fddbench.design.geometric.solvability import require_solvable, solvability, span
 from fddbench.design.geometric.stabilise import stabilise
 from fddbench.design.geometric.subspaces import TOLERANCE, Matrix, complement, kernel, subspace_sum
 from fddbench.errors import DesignError
 
-__all__ = ["ResidualGenerator", "identity_error", "residual_generator"]
+__all__ = ["residual_generator"]
 
 _IDENTITY = 1e-8
 """Largest misfit of the identity, relative to the size of its terms, of a filter that is handed out [-]."""
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class ResidualGenerator:
-    """``w' = N(rho) w - G(rho) y + F(rho) u, r = M w - H y`` for one fault of a bank.
-
-    With ``e = w - P x``: ``e' = N(rho) e - P L(rho) v, r = M e``; the other faults do not enter.
-
-    Attributes
-    ----------
-    fault : str
-        Its name.
-    N, G, F : (n_parameters + 1, k, k), (n_parameters + 1, k, n_y), (n_parameters + 1, k, n_u) arrays
-        Affine families, constant part first.
-    M, H : (r, k), (r, n_y) matrices
-    P : (k, n) matrix
-        Projection along S*, the unobservability subspace of the other faults.
-    PL : (n_parameters + 1, k, m) array
-        How the fault enters; ``M N^-1 PL`` is the residual of a steady fault of size one.
-    X : (k, k) matrix
-        Lyapunov matrix of its stability.
-    decay : float
-        Decay rate that X proves [1/s].
-    active : tuple of int
-        Numbers, from 0, of the parameters that moved the filter before its gain.
-    solvability : Solvability
-        How well the fault can be told from the others.
-    identity_error : float
-        Largest misfit of ``N_j P = P A_j + G_j C``, relative to the size of the terms [-].
-    """
-
-    fault: str
-    N: Matrix
-    G: Matrix
-    F: Matrix
-    M: Matrix
-    H: Matrix
-    P: Matrix
-    PL: Matrix
-    X: Matrix
-    decay: float
-    active: tuple[int, ...]
-    solvability: Solvability
-    identity_error: float
-
-    @property
-    def order(self) -> int:
-        """Number of states."""
-        return int(self.N.shape[1])
-
-    def steady_gain(self, rho: Matrix) -> Matrix:
-        """Residual of steady faults of size one at a frozen rho, (r, m)."""
-        gain: Matrix = self.M @ np.linalg.solve(at(self.N, rho), at(self.PL, rho))
-        return gain
-
-
-def identity_error(N: Matrix, G: Matrix, P: Matrix, A: Matrix, C: Matrix) -> float:
-    """Largest misfit over j of ``N_j P = P A_j + G_j C``, relative to the largest term [-]: 0 decouples exactly.
-
-    Parameters
-    ----------
-    N, G, A : (n_parameters + 1, …) arrays
-        Families with the same parameters.
-    """
-    left, right = N @ P, (P @ A, G @ C)
-    size = max(float(np.abs(term).max(initial=0.0)) for term in (left, *right))
-    return float(np.abs(left - right[0] - right[1]).max(initial=0.0)) / size if size > 0.0 else 0.0
 
 
 def residual_generator(
@@ -119,21 +53,15 @@ def residual_generator(
         Whether to make filters of one state, ``w' = -decay w ...``, where a row of the outputs allows it; then N is constant.
         The row is the one that shows the fault best at its worst point of the box.
     solver : {"CLARABEL", "SCS", "MOSEK"}
-        For the LMI.
-
-    Returns
-    -------
-    dict of str to ResidualGenerator
 
     Raises
     ------
     DesignError
-        Shapes do not fit, a fault cannot be isolated (named, and from which), or no gain is stable enough.
+        Shapes do not fit, a fault cannot be isolated (it and the others are named), or no gain is stable enough.
 
     References
     ----------
-    The LPV detection filter paper, Propositions 3 and 4 and Appendix A, whose printed filter (A18) is not that of its own
-    gains; where the projected directions may coincide between two rho the pointwise condition replaces that of Proposition 4.
+    The LPV detection filter paper, Propositions 3 and 4, Appendix A; its printed (A18) is not the filter of its own gains.
 
     Examples
     --------
