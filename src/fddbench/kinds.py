@@ -27,7 +27,6 @@ FAMILIES: Mapping[str, tuple[str, ...]] = {
     "wind": (),
     "detector": ("Gains", "from_design"),
     "recipe": ("spelled_out", "in_folder", "make"),
-    "scheduling": ("about", "signals", "parameters", "rho"),
 }
 """Family → what a member must have whoever uses it; a choice of a benchmark may ask for more (`Choice.needs`)."""
 

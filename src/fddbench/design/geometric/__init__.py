@@ -3,9 +3,9 @@
 Affine families A(rho) = A_0 + rho_1 A_1 + ... throughout; a system without parameters is one of a single matrix.
 """
 
+from fddbench.design.geometric.bank import residual_generator
 from fddbench.design.geometric.generator import ResidualGenerator, identity_error
 from fddbench.design.geometric.invariance import invariant_subspace, unobservability_subspace
-from fddbench.design.geometric.bank import residual_generator
 from fddbench.design.geometric.solvability import Solvability, solvability
 from fddbench.design.geometric.subspaces import (
     TOLERANCE,
