@@ -25,6 +25,7 @@ FAMILIES: Mapping[str, tuple[str, ...]] = {
     "voter": (),
     "sensor": (),
     "wind": (),
+    "law": (),
     "detector": ("Gains", "from_design"),
 }
 """Family → what a member must have whoever uses it; a choice of a benchmark may ask for more (`Choice.needs`)."""
