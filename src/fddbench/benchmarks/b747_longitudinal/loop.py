@@ -13,12 +13,13 @@ from fddbench.blocks.block import Part
 from fddbench.blocks.drawn import Draws
 from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, record
 from fddbench.faults.injection import SignalFaults, SignalFaultsState
+from fddbench.flight.b747.airframe import DATA
 from fddbench.flight.wind import AirMotion, Encounter, Wind
 from fddbench.interfaces import Bus, Flights, Options, Prepared, Sample, Site
 
 __all__ = ["LongitudinalLoop"]
 
-_SPAN_M = 59.64
+_SPAN_M = DATA["geometry"]["span_m"]
 
 
 @record
