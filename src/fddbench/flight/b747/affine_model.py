@@ -7,13 +7,14 @@ pitch rate, and the drag of the tail's lift. The moment of alphadot is a product
 """
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cache
 from typing import Literal
 
 import numpy as np
 
 from fddbench.blocks.functions import cos, sin
-from fddbench.blocks.layout import Row, Rows, record
+from fddbench.blocks.layout import Row, Rows
 from fddbench.flight.atmosphere import GRAVITY_M_S2
 from fddbench.flight.b747.aerodynamics import air, coefficients, drag_coefficient, scheduled_lift
 from fddbench.flight.b747.airframe import DATA, Aircraft, aircraft
@@ -33,35 +34,47 @@ _ALPHA, _Q, _V, _THETA, _H = range(5)
 _ELEVATOR, _STABILISER, _THRUST, _FICTITIOUS = range(4)
 
 
-@record
+@dataclass(frozen=True, kw_only=True)
 class Frozen:
-    """What the model holds: alpha [rad], airspeed [m/s], air density [kg/m^3], Q/V [Pa s/m], drag of the tail's lift [-]."""
+    """What the model holds at one point.
 
-    alpha_rad: Row
-    v_tas_m_s: Row
-    density_kg_m3: Row
-    q_by_v_pa_s_m: Row
-    tail_drag: Row
+    Attributes
+    ----------
+    thrust_along_ratio, thrust_up_ratio : float
+        Direction of the thrust: its share along the path, and across it, up [-].
+    v_tas_m_s, density_kg_m3, q_by_v_pa_s_m : float
+        Airspeed, air density, and dynamic pressure by airspeed.
+    tail_drag : float
+        Drag coefficient of what the tail adds to the basic lift [-].
+    """
+
+    thrust_along_ratio: float
+    thrust_up_ratio: float
+    v_tas_m_s: float
+    density_kg_m3: float
+    q_by_v_pa_s_m: float
+    tail_drag: float
+
+
+_POINT = DATA["design_point"]
 
 
 @cache
-def frozen(
-    altitude_m: float = DATA["design_point"]["altitude_m"], v_tas_m_s: float = DATA["design_point"]["v_tas_m_s"]
-) -> Frozen:
-    """What is frozen, (1,) rows, from the trim of the nominal aircraft in level flight: at the design point by default."""
+def frozen(altitude_m: float = _POINT["altitude_m"], v_tas_m_s: float = _POINT["v_tas_m_s"]) -> Frozen:
+    """What is frozen, from the trim of the nominal aircraft in level flight: at the design point by default."""
     at = condition(altitude_m, v_tas_m_s)
     trimmed, around = trim(aircraft(), at), air(at.altitude_m)
     found = coefficients(trimmed.alpha_rad, at.v_tas_m_s, around)
-    lift = (
-        found.basic_lift + found.elevator_lift * trimmed.elevator_deg + _LIFT["stabiliser_per_deg"] * at.stabiliser_deg
-    )
-    without = drag_coefficient(scheduled_lift(found.basic_lift), found.mach)
+    tail = found.elevator_lift * trimmed.elevator_deg + _LIFT["stabiliser_per_deg"] * at.stabiliser_deg
+    whole = drag_coefficient(found.basic_lift + tail, found.mach)
+    s, c, incidence = sin(trimmed.alpha_rad), cos(trimmed.alpha_rad), _GEOMETRY["thrust_incidence_ratio"]
     return Frozen(
-        alpha_rad=trimmed.alpha_rad,
-        v_tas_m_s=at.v_tas_m_s,
-        density_kg_m3=around.density_kg_m3,
-        q_by_v_pa_s_m=found.q_pa / at.v_tas_m_s,
-        tail_drag=drag_coefficient(lift, found.mach) - without,
+        thrust_along_ratio=float((c - incidence * s)[0]),
+        thrust_up_ratio=float((s + incidence * c)[0]),
+        v_tas_m_s=v_tas_m_s,
+        density_kg_m3=float(around.density_kg_m3[0]),
+        q_by_v_pa_s_m=float((found.q_pa / at.v_tas_m_s)[0]),
+        tail_drag=float((whole - drag_coefficient(scheduled_lift(found.basic_lift), found.mach))[0]),
     )
 
 
@@ -91,7 +104,6 @@ def _forces(own: Aircraft, held: Frozen) -> tuple[_Entries, _Entries]:
     m, one, g = own.mass_kg, np.ones_like(own.mass_kg), GRAVITY_M_S2
     area = _GEOMETRY["wing_area_m2"] / m
     per_lift, per_thrust = own.c_l_ratio * area, ENGINES / m
-    s, c, incidence = sin(held.alpha_rad), cos(held.alpha_rad), _GEOMETRY["thrust_incidence_ratio"]
     A: _Entries = {
         (_ALPHA, _Q): {0: one - per_lift * _turn_lift(own) * (0.5 * held.density_kg_m3)},
         (_V, _ALPHA): {0: g * one},
@@ -102,9 +114,9 @@ def _forces(own: Aircraft, held: Frozen) -> tuple[_Entries, _Entries]:
     B: _Entries = {
         (_ALPHA, _ELEVATOR): {6: -per_lift},
         (_ALPHA, _STABILISER): {2: -per_lift * _LIFT["stabiliser_per_deg"]},
-        (_ALPHA, _THRUST): {3: -per_thrust * (s + incidence * c)},
+        (_ALPHA, _THRUST): {3: -per_thrust * held.thrust_up_ratio},
         (_ALPHA, _FICTITIOUS): {3: g * one, 5: -per_lift},
-        (_V, _THRUST): {0: per_thrust * (c - incidence * s)},
+        (_V, _THRUST): {0: per_thrust * held.thrust_along_ratio},
         (_V, _FICTITIOUS): {1: -area * own.c_d_ratio * held.tail_drag, 7: -area * own.c_d_ratio},
     }
     return A, B
