@@ -40,11 +40,11 @@ def _all_designs(benchmark):
     path, fitting = CAMPAIGNS[benchmark], []
     for name in DESIGNS:
         try:
-            assemble(read_campaign(path, [f"detectors=[{name}]"]))
+            assemble(read_campaign(path, [f"detectors=[{name}]", "reconfigure=null"]))
         except FddbenchError:
             continue
         fitting.append(name)
-    return assemble(read_campaign(path, [f"detectors=[{', '.join(fitting)}]"])), fitting
+    return assemble(read_campaign(path, [f"detectors=[{', '.join(fitting)}]", "reconfigure=null"])), fitting
 
 
 @pytest.fixture(scope="module", params=sorted(CAMPAIGNS))
