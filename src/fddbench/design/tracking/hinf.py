@@ -12,7 +12,7 @@ from fddbench.errors import DesignError
 from fddbench.interfaces import Floats
 from fddbench.systems import StateSpace, lower_lft
 
-__all__ = ["closed_norm", "reduce_order", "slow_part", "synthesize"]
+__all__ = ["as_law", "closed_norm", "reduce_order", "slow_part", "synthesize"]
 
 
 def _control() -> ModuleType:
@@ -88,12 +88,24 @@ def reduce_order(plant: StateSpace, controller: StateSpace, sizes: tuple[Floats,
     control = _control()
     limit = (1.0 + loss) * closed_norm(plant, controller)
     into, out = sizes
-    scaled = control.ss(controller.A, controller.B * into, controller.C / out[:, None], controller.D * into / out[:, None])
+    scaled = (controller.A, controller.B * into, controller.C / out[:, None], controller.D * into / out[:, None])
     best = controller
     for order in range(controller.order - 1, 0, -1):
-        found = _system(control.balred(scaled, order, method="matchdc"))
+        found = _system(control.balred(control.ss(*scaled), order, method="matchdc"))
         smaller = StateSpace(found.A, found.B / into, found.C * out[:, None], found.D / into * out[:, None])
         if closed_norm(plant, smaller) > limit:
             break
         best = smaller
     return best
+
+
+def as_law(controller: StateSpace) -> StateSpace:
+    """The controller from the inputs of a law, errors and `MEASURED`: integrals are states, the last two, commands sums."""
+    n = controller.order
+    known = np.zeros((len(KNOWN), 7))  # commands are errors plus measured flight path and speed
+    known[0, [0, 2]] = known[1, [1, 6]] = 1.0
+    known[4:, 2:] = np.eye(5)
+    A, B = np.zeros((n + 2, n + 2)), np.zeros((n + 2, 7))
+    A[:n, :n], A[:n, n:] = controller.A, controller.B[:, 2:4]
+    B[:n], B[n:, :2] = controller.B @ known, np.eye(2)
+    return StateSpace(A, B, np.hstack([controller.C, controller.D[:, 2:4]]), controller.D @ known)

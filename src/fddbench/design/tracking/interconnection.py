@@ -12,6 +12,7 @@ import numpy as np
 from fddbench.design.tracking.aircraft import ACTUATORS, MEASURED, LinearAircraft
 from fddbench.design.tracking.reference import corner_rad_s, models
 from fddbench.design.tracking.wiring import Block, wire
+from fddbench.interfaces import Floats
 from fddbench.systems import StateSpace
 
 __all__ = ["CONTROLS", "KNOWN", "Weights", "generalised_plant"]
@@ -55,6 +56,13 @@ class Weights:
     integral: tuple[float, float]
     effort: tuple[float, float]
     corner_rad_s: tuple[float, float]
+
+    @property
+    def sizes(self) -> tuple[Floats, Floats]:
+        """Sizes of `KNOWN` and `CONTROLS`, (9,) and (2,): what a reduction of the controller weighs by."""
+        path, speed = self.command
+        known = [path, speed, *self.integral, path, self.noise[3] * 5.0, path, path, speed]
+        return np.array(known), np.array(self.effort)
 
 
 def generalised_plant(flying: LinearAircraft, weights: Weights) -> StateSpace:

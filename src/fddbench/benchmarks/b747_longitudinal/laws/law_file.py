@@ -91,13 +91,13 @@ def read_law(path: Path) -> TrackingLaw:
         A key is missing or unknown, signals are not `INPUTS` and `OUTPUTS`, or matrices do not fit.
     """
     data = yaml.safe_load(path.read_text(encoding="utf-8"))
-    if not isinstance(data, dict):
-        raise DesignError(f"{path} holds no law: expected keys inputs, outputs, A, B, C, D, E, handover")
-    return law_of(data, where=str(path))
+    if not isinstance(data, dict) or data.get("kind") != "tracking_law" or not isinstance(data.get("gains"), dict):
+        raise DesignError(f"{path} holds no law: expected kind: tracking_law, and gains")
+    return law_of(data["gains"], where=f"{path}: gains")
 
 
 def law_of(data: dict[str, Any], *, where: str) -> TrackingLaw:
-    """Law of the data of a file; `where` it stands, for messages."""
+    """Law of the gains of a file; `where` they stand, for messages."""
     for key, known in (("inputs", INPUTS), ("outputs", OUTPUTS)):
         if tuple(data.get(key, ())) != known:
             raise DesignError(f"{where}: {key} of a law are {', '.join(known)}, in this order; got {data.get(key)}")
