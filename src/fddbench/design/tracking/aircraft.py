@@ -19,7 +19,16 @@ from fddbench.interfaces import Floats
 from fddbench.systems import StateSpace
 from fddbench.units import DEG_PER_RAD
 
-__all__ = ["ACTUATORS", "ELEVATOR_RAD_S", "ENGINE_RAD_S", "MEASURED", "FlightPoint", "LinearAircraft", "linear_aircraft", "linear_aircrafts"]
+__all__ = [
+    "ACTUATORS",
+    "ELEVATOR_RAD_S",
+    "ENGINE_RAD_S",
+    "MEASURED",
+    "FlightPoint",
+    "LinearAircraft",
+    "linear_aircraft",
+    "linear_aircrafts",
+]
 
 MEASURED = ("flight_path_deg", "acceleration_g", "pitch_deg", "pitch_rate_deg_s", "speed_m_s")
 """What laws measure, as deviations from trim."""
@@ -109,7 +118,9 @@ def linear_aircrafts(points: Sequence[FlightPoint], flying: Aircraft | None = No
     """
     if not points:
         return []
-    altitude, speed = (np.array([getattr(p, name) for p in points], dtype=float) for name in ("altitude_m", "v_tas_m_s"))
+    altitude, speed = (
+        np.array([getattr(p, name) for p in points], dtype=float) for name in ("altitude_m", "v_tas_m_s")
+    )
     one = aircraft(np.full(len(points), DATA["inertia"]["mass_kg"])) if flying is None else flying
     found = trim(one, condition(altitude, speed))
     zero = np.zeros_like(altitude)
@@ -117,7 +128,8 @@ def linear_aircrafts(points: Sequence[FlightPoint], flying: Aircraft | None = No
     u0 = np.stack([found.elevator_deg, zero + DATA["stabiliser_deg"], found.thrust_n])
 
     def rate(x: Floats, u: Floats, wind: Floats) -> Floats:
-        return np.asarray(derivative(x, u, wind, one, air(x[4]))) * _UNITS[:, None]
+        rates: Floats = derivative(x, u, wind, one, air(x[4])) * _UNITS[:, None]
+        return rates
 
     at = (x0, u0, np.zeros((3, len(points))))
     with np.errstate(all="ignore"):  # points without a trim
@@ -145,4 +157,5 @@ def _slope(rate: Callable[..., Floats], at: tuple[Floats, ...], which: int, j: i
     h = np.zeros((len(at[which]), 1))
     h[j] = step
     above, below = ([*at[:which], at[which] + sign * h, *at[which + 1 :]] for sign in (1.0, -1.0))
-    return np.asarray((rate(*above) - rate(*below)) / (2.0 * step))
+    slope: Floats = (rate(*above) - rate(*below)) / (2.0 * step)
+    return slope

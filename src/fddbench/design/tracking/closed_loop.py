@@ -31,7 +31,7 @@ def actuated(flying: LinearAircraft, handover: Handover | None = None) -> StateS
     else:
         ahead = flying.stabiliser_ratio * handover.lead_s / handover.lag_s
         behind = flying.stabiliser_ratio - ahead
-        lead = StateSpace([[-1.0 / handover.lag_s]], [[1.0 / handover.lag_s]], [[behind]], [[ahead]])
+        lead = StateSpace.diagonal([-1.0 / handover.lag_s], [1.0 / handover.lag_s], [behind], [ahead])
         motor = StateSpace.diagonal([-ENGINE_RAD_S], [ENGINE_RAD_S], [1.0], [0.0])
         blocks += [Block(lead, ["elevator_order"], ["led"]), Block(motor, ["led"], ["stabiliser_position"])]
         wires |= {"stabiliser": {"stabiliser_position": 1.0}, "elevator": {}}
@@ -75,5 +75,3 @@ def disk_margin(plant: StateSpace, law: StateSpace, channel: str, *, delay_s: fl
         L = -(around[j, j] + around[j, other] / (1.0 - around[other, other]) * around[other, j])
         largest = max(largest, abs((1.0 - L) / (1.0 + L)))
     return 2.0 / largest
-
-

@@ -1,6 +1,5 @@
 """H∞ synthesis by SLICOT, the reduction of its controller, and the controller as a law."""
 
-from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -12,10 +11,10 @@ from fddbench.errors import DesignError
 from fddbench.interfaces import Floats
 from fddbench.systems import StateSpace, lower_lft
 
-__all__ = ["as_law", "closed_norm", "reduce_order", "slow_part", "synthesize"]
+__all__ = ["as_law", "closed_norm", "controller_of", "reduce_order", "slow_part", "synthesize"]
 
 
-def _control() -> ModuleType:
+def _control() -> Any:
     """python-control with SLICOT, imported when it is needed: slycot is GPL and no dependency."""
     try:
         import control
@@ -109,3 +108,13 @@ def as_law(controller: StateSpace) -> StateSpace:
     A[:n, :n], A[:n, n:] = controller.A, controller.B[:, 2:4]
     B[:n], B[n:, :2] = controller.B @ known, np.eye(2)
     return StateSpace(A, B, np.hstack([controller.C, controller.D[:, 2:4]]), controller.D @ known)
+
+
+def controller_of(law: StateSpace) -> StateSpace:
+    """The controller that `as_law` made a law of: how a certificate is checked from the numbers of a file alone."""
+    n = law.order - 2
+    B, D = (np.zeros((len(M), len(KNOWN))) for M in (law.B[:n], law.D))
+    for own, M, by_integral in ((B, law.B[:n], law.A[:n, n:]), (D, law.D, law.C[:, n:])):
+        own[:, :2], own[:, 2:4], own[:, 4:] = M[:, :2], by_integral, M[:, 2:]
+        own[:, [4, 8]] -= M[:, :2]  # what errors brought along with the commands
+    return StateSpace(law.A[:n, :n], B, law.C[:, :n], D)

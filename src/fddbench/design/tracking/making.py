@@ -97,8 +97,6 @@ def _written(law: TrackingLaw) -> dict[str, Any]:
     if scheduled:
         gains["dynamic_pressure_pa"] = law.dynamic_pressure_pa.tolist()
     matrices: Mapping[str, Floats] = {name: getattr(law, name) for name in "ABCDE"}
-    gains |= {
-        name: (M if scheduled or name not in "CD" else M[0]).tolist() for name, M in matrices.items()
-    }
+    gains |= {name: (M if scheduled or name not in "CD" else M[0]).tolist() for name, M in matrices.items()}
     way = law.handover
     return gains | {"handover": {"lead_s": way.lead_s, "lag_s": way.lag_s, "command_lag_s": way.command_lag_s}}

@@ -57,6 +57,7 @@ class Response:
     signals: Mapping[str, Floats]
 
     def __getitem__(self, name: str) -> Floats:
+        """Signal by its name, (n_time,)."""
         return self.signals[name]
 
 
@@ -71,15 +72,23 @@ def fly(
         if begin >= story.handover_s and loop.frozen_deg is None:
             loop.hand_over(begin, state)
         grid = np.append(np.arange(begin, end - 1e-9, step_s), end)
-        inside = 0.5 * (begin + end)
         found = solve_ivp(
-            lambda t, x, low=begin, high=end, mid=inside: loop.rate(min(max(t, low + 1e-9), high - 1e-9), x),
-            (begin, end), state, method="LSODA", t_eval=grid, rtol=1e-6, atol=1e-8, max_step=0.5,
+            _within(loop, begin, end), (begin, end), state,
+            method="LSODA", t_eval=grid, rtol=1e-6, atol=1e-8, max_step=0.5,
         )  # fmt: skip
         state = found.y[:, -1]
         times.append(found.t[:-1])
         states.append(found.y[:, :-1])
     return loop.recorded(np.concatenate(times), np.concatenate(states, axis=1))
+
+
+def _within(loop: "_Loop", begin: float, end: float) -> Callable[[float, Floats], Floats]:
+    """Rate of a stretch between two jumps, which neither end sees."""
+
+    def rate(time_s: float, state: Floats) -> Floats:
+        return loop.rate(min(max(float(time_s), begin + 1e-9), end - 1e-9), np.asarray(state, dtype=float))
+
+    return rate
 
 
 class _Loop:
@@ -88,13 +97,11 @@ class _Loop:
     def __init__(self, law: TrackingLaw | None, at: FlightPoint, story: Story, flying: Aircraft) -> None:
         self.law, self.story, self.flying = law, story, flying
         self.trim = linear_aircraft(at, flying)
-        nominal = linear_aircraft(at)
-        self.ratio, self.frozen_deg = nominal.stabiliser_ratio, None
+        self.ratio = linear_aircraft(at).stabiliser_ratio
         alpha = self.trim.alpha_deg / DEG_PER_RAD
         self.x0 = np.array([alpha, 0.0, at.v_tas_m_s, alpha, at.altitude_m])
         self.u0 = np.array([self.trim.elevator_deg, 1e3 * self.trim.thrust_kn, DATA["stabiliser_deg"]])
-        self.frozen_deg: float | None
-        self.command_from: float
+        self.frozen_deg: float | None = None
 
     def start(self) -> Floats:
         """Trim."""

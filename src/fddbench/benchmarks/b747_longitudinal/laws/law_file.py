@@ -118,5 +118,7 @@ def law_of(data: dict[str, Any], *, where: str) -> TrackingLaw:
         if array.shape != need[name] or not np.isfinite(array).all():
             raise DesignError(f"{where}: {name} needs finite numbers of shape {need[name]}, got shape {array.shape}")
     if (np.diff(knots) <= 0.0).any() or len(knots) == 1:
-        raise DesignError(f"{where}: dynamic_pressure_pa needs two or more numbers in rising order, got {knots.tolist()}")
+        raise DesignError(
+            f"{where}: dynamic_pressure_pa needs two or more numbers in rising order, got {knots.tolist()}"
+        )
     return TrackingLaw(A=A, B=B, C=C, D=D, E=E, dynamic_pressure_pa=knots, handover=handover)
