@@ -80,14 +80,15 @@ def scores(args: argparse.Namespace) -> int:
 
     A folder that does not hold all flights of its campaign is refused.
     """
-    from fddbench.api.tables import in_sample
+    from fddbench.api.tables import detectable, in_sample
     from fddbench.reporting.scores import scores_text
     from fddbench.results.folder import provenance_of
     from fddbench.results.table import load
     from fddbench.results.whole import require_whole
 
     require_whole(args.folder)
-    print(scores_text(load(args.folder), provenance_of(args.folder), in_sample(args.folder)), end="")
+    maps = detectable(args.folder)
+    print(scores_text(load(args.folder), provenance_of(args.folder), in_sample(args.folder), maps), end="")
     return 0
 
 
