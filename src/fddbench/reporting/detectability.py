@@ -23,7 +23,7 @@ Line = dict[Any, Any]
 __all__ = ["MAP_HEADS", "detectability_lines", "detectability_pictures", "quantity"]
 
 MAP_HEADS = (
-    "scenario", "detector", "smallest found", "found of these or larger", "smallest in cells", "in sight", "false alarms", "per hour",
+    "scenario", "detector", "smallest found", "found of larger", "smallest in cells", "in sight", "false alarms", "per hour",
 )  # fmt: skip
 _SIGN = {AT_MOST: "≤ ", ABOVE: "> "}
 _MAP = ("site", "size", "times", "scenario")
