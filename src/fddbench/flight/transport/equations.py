@@ -19,7 +19,7 @@ from fddbench.flight.transport.aircraft import Aircraft
 
 __all__ = [
     "ROWS", "Body", "Forces", "State", "Wind", "attitude", "derivative", "euler_rad", "flow_of", "forces", "gravity",
-    "normalised", "thrust_n",
+    "normalised", "thrust_n", "to_earth",
 ]  # fmt: skip
 
 _GAMMA_R = 1.4 * 287.05287
@@ -176,7 +176,7 @@ def derivative(
     roll = f.roll + body.i_xz * (x.p * x.q) + (body.i_yy - body.i_zz) * (x.q * x.r)
     yaw = f.yaw - body.i_xz * (x.q * x.r) + (body.i_xx - body.i_yy) * (x.p * x.q)
     pitch = f.pitch + (body.i_zz - body.i_xx) * (x.p * x.r) - body.i_xz * (x.p * x.p - x.r * x.r)
-    north, east, down = _to_earth(x)
+    north, east, down = to_earth(x)
     return np.stack(
         [
             f.x + g_x + x.r * x.v - x.q * x.w,
@@ -196,7 +196,7 @@ def derivative(
     )
 
 
-def _to_earth(x: State) -> tuple[Row, Row, Row]:
+def to_earth(x: State) -> tuple[Row, Row, Row]:
     """Velocity north, east and down [m/s]: ``v + 2 q x (q x v + q0 v)`` with the vector part of the attitude."""
     a = x.q2 * x.w - x.q3 * x.v + x.q0 * x.u
     b = x.q3 * x.u - x.q1 * x.w + x.q0 * x.v
