@@ -11,8 +11,9 @@ import yaml
 from fddbench.blocks.functions import pow_
 from fddbench.blocks.layout import Row
 from fddbench.blocks.lookup import Grid, Lookup
+from fddbench.errors import DesignError
 
-__all__ = ["LAW", "Gains", "gains_at", "read_gains"]
+__all__ = ["LAW", "Gains", "Schedule", "read_law", "shipped_law"]
 
 LAW = Path(__file__).parent / "data" / "law.yaml"
 
@@ -42,18 +43,43 @@ class Gains(NamedTuple):
 _KNOTS_PA = np.geomspace(2000.0, 24000.0, 16)
 
 
+class Schedule:
+    """Gains over dynamic pressure.
+
+    Parameters
+    ----------
+    data : mapping
+        ``reference_pressure_pa`` and ``gains``, a ``value`` and an ``exponent`` for each name of `Gains`.
+
+    Raises
+    ------
+    DesignError
+        A gain is missing.
+    """
+
+    def __init__(self, data: Mapping[str, Any]) -> None:
+        missing = [name for name in Gains._fields if name not in data.get("gains", {})]
+        if missing or "reference_pressure_pa" not in data:
+            raise DesignError(
+                f"a law needs reference_pressure_pa and the gains {', '.join(Gains._fields)}; no {missing}"
+            )
+        self._axis, share = Grid(_KNOTS_PA), _KNOTS_PA / float(data["reference_pressure_pa"])
+        powers = {name: data["gains"][name] for name in Gains._fields}
+        values = {name: float(p["value"]) * pow_(share, float(p["exponent"])) for name, p in powers.items()}
+        self._tables = {name: Lookup(each, self._axis) for name, each in values.items()}
+
+    def at(self, pressure_pa: Row) -> Gains:
+        """Gains at a dynamic pressure [Pa]."""
+        place = self._axis.find(pressure_pa)
+        return Gains(**{name: table(place) for name, table in self._tables.items()})
+
+
+def read_law(path: Path) -> Schedule:
+    """Gains of a file of power laws, as `data/law.yaml` is one."""
+    return Schedule(yaml.safe_load(path.read_text(encoding="utf-8")))
+
+
 @cache
-def read_gains(path: Path = LAW) -> tuple[Grid, Mapping[str, Lookup]]:
-    """Axis of dynamic pressure [Pa], and the table of each gain, of a file of power laws."""
-    data: dict[str, Any] = yaml.safe_load(path.read_text(encoding="utf-8"))
-    axis, share = Grid(_KNOTS_PA), _KNOTS_PA / float(data["reference_pressure_pa"])
-    powers = {name: data["gains"][name] for name in Gains._fields}
-    tables = {name: float(p["value"]) * pow_(share, float(p["exponent"])) for name, p in powers.items()}
-    return axis, {name: Lookup(values, axis) for name, values in tables.items()}
-
-
-def gains_at(pressure_pa: Row) -> Gains:
-    """Gains at a dynamic pressure [Pa]."""
-    axis, tables = read_gains()
-    place = axis.find(pressure_pa)
-    return Gains(**{name: table(place) for name, table in tables.items()})
+def shipped_law() -> Schedule:
+    """Gains for the shipped aircraft, read once."""
+    return read_law(LAW)

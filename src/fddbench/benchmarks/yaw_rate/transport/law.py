@@ -6,8 +6,8 @@ import numpy as np
 
 from fddbench.benchmarks.yaw_rate.control_law import allocate
 from fddbench.benchmarks.yaw_rate.transport.autothrust import autothrust
-from fddbench.benchmarks.yaw_rate.transport.gains import gains_at
-from fddbench.benchmarks.yaw_rate.transport.lateral_law import LateralState, lateral_law, sideslip_orders
+from fddbench.benchmarks.yaw_rate.transport.gains import Gains, Schedule
+from fddbench.benchmarks.yaw_rate.transport.lateral_law import LateralState, balance, lateral_law
 from fddbench.benchmarks.yaw_rate.transport.longitudinal_law import (
     LongitudinalState,
     load_factor_asked,
@@ -68,7 +68,7 @@ class Orders(NamedTuple):
     bank_rad: Row
 
 
-_ONE = LongitudinalState(limited_g=ROW, followed_g=ROW, integral_g_s=ROW, stabiliser_deg=ROW)
+_ONE = LongitudinalState(limited_g=ROW, followed_g=ROW, expected_g=ROW, integral_g_s=ROW, stabiliser_deg=ROW)
 
 
 class TransportLaw:
@@ -78,6 +78,8 @@ class TransportLaw:
     ----------
     aircraft : Aircraft
         What it is for: limits, travel, and the surfaces of a steady sideslip.
+    gains : Schedule
+        Gains over dynamic pressure.
     sample_s : float
         Sample time [s]; the delay is 60 ms to the nearest sample, at least one.
     """
@@ -85,13 +87,13 @@ class TransportLaw:
     constants = Layout(LawConstants(**dict.fromkeys(LawConstants.__dataclass_fields__, ROW)))
     draws: Draws[Any] = NO_DRAWS
 
-    def __init__(self, aircraft: Aircraft, sample_s: float) -> None:
-        self.aircraft, self.sample_s = aircraft, sample_s
-        self.per_sideslip = sideslip_orders(aircraft)
+    def __init__(self, aircraft: Aircraft, gains: Schedule, sample_s: float) -> None:
+        self.aircraft, self.gains, self.sample_s = aircraft, gains, sample_s
+        self.steady = balance(aircraft)
         late = max(round(DELAY_S / sample_s), 1)
         self.states = Layout(
             LawState(
-                lateral=LateralState(asked_rad=ROW, followed_rad=ROW, integral_rad_s=ROW), longitudinal=_ONE,
+                lateral=LateralState(asked_rad=ROW, followed_rad=ROW, expected_rad=ROW, integral_rad_s=ROW), longitudinal=_ONE,
                 speed_integral_m=ROW, roll=late, rudder=late, elevator=late, stabiliser=late, thrust=late,
             )
         )  # fmt: skip
@@ -100,10 +102,14 @@ class TransportLaw:
         """In trim, with its orders on their way."""
         late = np.ones((self.states.shape.stabiliser, 1))
         begun = LongitudinalState(
-            limited_g=c.cos_theta, followed_g=c.cos_theta, integral_g_s=0.0, stabiliser_deg=c.stabiliser_deg
+            limited_g=c.cos_theta,
+            followed_g=c.cos_theta,
+            expected_g=c.cos_theta,
+            integral_g_s=0.0,
+            stabiliser_deg=c.stabiliser_deg,
         )
         return LawState(
-            lateral=LateralState(asked_rad=0.0, followed_rad=0.0, integral_rad_s=0.0), longitudinal=begun,
+            lateral=LateralState(asked_rad=0.0, followed_rad=0.0, expected_rad=0.0, integral_rad_s=0.0), longitudinal=begun,
             speed_integral_m=0.0, roll=0.0, rudder=0.0, elevator=0.0, stabiliser=late * c.stabiliser_deg,
             thrust=late * c.thrust_ratio,
         )  # fmt: skip
@@ -113,12 +119,12 @@ class TransportLaw:
         del n
         T, aircraft = self.sample_s, self.aircraft
         asked = commanded(c.manoeuvre, sample * T)
-        k = gains_at(s.scheduled_pa)
+        k = self.gains.at(s.scheduled_pa)
         pedals = np.minimum(np.maximum(asked.pedals, -c.sideslip_deg), c.sideslip_deg)
-        lateral, across = lateral_law(x.lateral, s, asked, pedals, k, self.per_sideslip, T)
-        longitudinal, along, too_fast = self._pitch(x, c, s, asked)
-        speed = c.v_cas_kt + asked.speed * c.speed_kt
-        integral, thrust = autothrust(aircraft, x.speed_integral_m, s, asked, speed, c.thrust_ratio, too_fast, T)
+        lateral, across = lateral_law(x.lateral, s, asked, pedals, k, self.steady, T)
+        longitudinal, along, too_fast = self._pitch(x, c, s, asked, k)
+        speed, rate = c.v_cas_kt + asked.speed * c.speed_kt, asked.speed_rate * c.speed_kt
+        integral, thrust = autothrust(aircraft, x.speed_integral_m, s, asked, speed, rate, c.thrust_ratio, too_fast, T)
         roll, roll_deg = ring(x.roll, across.roll_deg, sample)
         rudder, rudder_deg = ring(x.rudder, across.rudder_deg, sample)
         elevator, elevator_deg = ring(x.elevator, along.elevator_deg, sample)
@@ -133,12 +139,11 @@ class TransportLaw:
         )
         return after, Orders(surfaces, thrust_ratio, across.bank_rad)
 
-    def _pitch(self, x: LawState, c: LawConstants, s: Sensed, asked: Commands) -> tuple[LongitudinalState, Any, Row]:
+    def _pitch(
+        self, x: LawState, c: LawConstants, s: Sensed, asked: Commands, k: Gains
+    ) -> tuple[LongitudinalState, Any, Row]:
         stick = asked.stick * c.stick_ratio
         wanted = load_factor_asked(s, asked, stick, c.alpha_rad, c.altitude_m)
         allowed = bounds(self.aircraft, s, stick, c.alpha_rad)
-        k = gains_at(s.scheduled_pa)
-        after, orders = longitudinal_law(
-            x.longitudinal, s, wanted, allowed, k, self.aircraft.actuators, self.sample_s
-        )
+        after, orders = longitudinal_law(x.longitudinal, s, wanted, allowed, k, self.aircraft.actuators, self.sample_s)
         return after, orders, allowed.too_fast

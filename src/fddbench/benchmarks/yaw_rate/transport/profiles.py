@@ -22,8 +22,8 @@ class Commands(NamedTuple):
 
     Lateral: stick [deg/s of roll], pedals [deg of sideslip], whether the track is held [-] and at which angle [deg].
     Longitudinal: stick [g], pitch angle over that of the trim [deg], whether altitude, or pitch angle, is held [-]. Airspeed
-    over that of the trim in parts of the step of the flight [-], whether autothrust holds it [-], else thrust: -1 idle,
-    0 as trimmed, 1 full. Trims of stabiliser, rudder and ailerons [deg].
+    over that of the trim in steps of the flight [-] and its rate [1/s], whether autothrust holds it [-], else the thrust: -1
+    idle, 0 as trimmed, 1 full. Trims of stabiliser, rudder and ailerons [deg].
     """
 
     roll_stick: Row
@@ -35,6 +35,7 @@ class Commands(NamedTuple):
     altitude_held: Row
     theta_held: Row
     speed: Row
+    speed_rate: Row
     autothrust: Row
     thrust: Row
     stabiliser_trim: Row
@@ -128,6 +129,7 @@ MANOEUVRES: Mapping[str, Mapping[str, Points]] = {
         **_BY_HAND,
         **_LEVEL_WINGS,
         "roll_stick": _steps((5, 15), (5 + 67 / 15 + 5, 0)),
+        "theta_held": _steps((17, 1)),  # then back to the attitude of the trim
     },
     "dqm": {**_BY_HAND, "stick": _steps(*_three_two_one_one(5, 1.0), *_three_two_one_one(30, -1.0))},
     "dpm": {
@@ -141,7 +143,11 @@ MANOEUVRES: Mapping[str, Mapping[str, Points]] = {
         "roll_trim": _trimmed(35, 2.0),
     },
     "side_slip_mode": {"pedals": ((5, 0), (9, 4), (24, 4), (28, 0))},
-    "speed_change": {"speed": ((5, 0), (27, 1), (33, 1), (55, 0))},
+    # 0.45 kt/s: idle slows by 0.5 to 1.1 kt/s only
+    "speed_change": {
+        "speed": ((5, 0), (27, 1), (33, 1), (55, 0)),
+        "speed_rate": _steps((5, 1 / 22), (27, 0), (33, -1 / 22), (55, 0)),
+    },
 }
 """Manoeuvre → breakpoints (time [s], value) of what differs from level flight on track at the airspeed of the trim."""
 

@@ -17,7 +17,7 @@ __all__ = ["Bounds", "bounds", "protected_alpha_rad"]
 
 _MOST_G, _LEAST_G = 2.5, 0.0
 _UP, _UP_SLOW, _DOWN = (RAD_PER_DEG * each for each in (30.0, 25.0, -15.0))
-_SLOW_KT = 200.0
+_SLOW_KT, _NOT_SLOW_KT = 200.0, 220.0
 _ABOVE_TRIM = RAD_PER_DEG * 1.0
 _SHARE = 0.85
 """Where the incidence is protected, as a share of the way from zero lift to buffet."""
@@ -52,7 +52,8 @@ def bounds(aircraft: Aircraft, s: Sensed, stick_g: Row, trim_alpha_rad: Row) -> 
     alpha_dot = s.q_rad_s - (GRAVITY_M_S2 * (s.n_z_g - cos_theta * cos(s.phi_rad))) / s.v_tas_m_s
     by_alpha = s.n_z_g + per_rad * (highest - s.alpha_rad - _LEAD_S * alpha_dot)
     per_pitch = (_PITCH_GAIN / GRAVITY_M_S2) * s.v_tas_m_s
-    up = np.where(s.v_cas_kt < _SLOW_KT, _UP_SLOW, _UP)
+    fast = np.minimum(np.maximum((s.v_cas_kt - _SLOW_KT) * (1.0 / (_NOT_SLOW_KT - _SLOW_KT)), 0.0), 1.0)
+    up = _UP_SLOW + fast * (_UP - _UP_SLOW)
     by_pitch = cos_theta + per_pitch * (up - s.theta_rad)
     by_dive = cos_theta + per_pitch * (_DOWN - s.theta_rad)
     limits = aircraft.limits
