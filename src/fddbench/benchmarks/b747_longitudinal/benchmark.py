@@ -5,15 +5,22 @@ from typing import Any
 
 from fddbench.benchmarks.b747_longitudinal.law import LAW_NEEDS
 from fddbench.benchmarks.b747_longitudinal.laws.open_loop import OpenLoop
+from fddbench.benchmarks.b747_longitudinal.laws.tracking import Hinf, Lqi, Scheduled
 from fddbench.benchmarks.b747_longitudinal.loop import LongitudinalLoop
 from fddbench.benchmarks.b747_longitudinal.plant import PLANT_NEEDS, LongitudinalPlant
 from fddbench.benchmarks.b747_longitudinal.plants.affine import LpvApprox, LpvFold
 from fddbench.benchmarks.b747_longitudinal.plants.nonlinear import Nonlinear
 from fddbench.benchmarks.b747_longitudinal.sensors import PRESETS
 from fddbench.flight.dryden import LONGITUDINAL_WINDS
-from fddbench.interfaces import Choice, Floats, Options
+from fddbench.interfaces import Choice, Detectability, Floats, Options
 
 __all__ = ["B747Longitudinal"]
+
+
+def _smallest_loss(site: str, *, times: str, hatch_below: float = 0.0) -> Detectability:
+    """Map of the smallest loss of what a site does in trim, over the envelope."""
+    axes = ("v_tas_m_s", "altitude_m")
+    return Detectability(site=site, size="loss_percent", axes=axes, times=times, hatch_below=hatch_below)
 
 
 class B747Longitudinal:
@@ -34,7 +41,7 @@ class B747Longitudinal:
         ),
         "law": Choice(
             about="how flight-path angle and airspeed are tracked",
-            options={"open_loop": OpenLoop},
+            options={"hinf": Hinf, "lqi": Lqi, "scheduled": Scheduled, "open_loop": OpenLoop},
             family="law",
             needs=LAW_NEEDS,
         ),
@@ -43,7 +50,7 @@ class B747Longitudinal:
             options=PRESETS,
             family="sensor",
             needs=(
-                *("alpha_deg", "q_deg_s", "v_tas_m_s", "theta_deg", "altitude_m", "acceleration_m_s2"),
+                *("alpha_deg", "q_deg_s", "v_tas_m_s", "theta_deg", "altitude_m", "gamma_deg", "acceleration_m_s2"),
                 *("elevator_deg", "stabiliser_deg", "thrust_n"),
             ),
         ),
@@ -57,6 +64,10 @@ class B747Longitudinal:
     shown: tuple[str, ...] = ("gamma_true_deg", "v_tas_true_m_s", "elevator_true_deg", "thrust_true_n")
     limits_from = "our choice: 10 s for the elevator, 20 s for the thrust"
     envelope_axes = (("v_tas_m_s", "altitude_m"), ("x_cg_ratio", "mass_kg"))
+    detectability = (
+        _smallest_loss("elevator", times="elevator_trim_deg", hatch_below=0.3),
+        _smallest_loss("thrust", times="thrust_trim_n"),
+    )
 
     def plant(self, chosen: Mapping[str, Any]) -> LongitudinalPlant:
         """The chosen plant."""

@@ -21,6 +21,24 @@ from fddbench.units import DEG_PER_RAD
 __all__ = ["Response", "Story", "fly"]
 
 
+def _zero(time_s: float) -> float:
+    """Nothing commanded."""
+    del time_s
+    return 0.0
+
+
+def _whole(time_s: float) -> tuple[float, float]:
+    """Nothing lost."""
+    del time_s
+    return 1.0, 1.0
+
+
+def _calm(time_s: float) -> tuple[float, float]:
+    """No wind."""
+    del time_s
+    return 0.0, 0.0
+
+
 @dataclass(frozen=True, kw_only=True)
 class Story:
     """What happens in a flight; functions of time [s] that may jump at `jumps_s` only.
@@ -41,10 +59,10 @@ class Story:
     """
 
     duration_s: float
-    flight_path_deg: Callable[[float], float] = lambda _: 0.0
-    speed_m_s: Callable[[float], float] = lambda _: 0.0
-    effectiveness: Callable[[float], tuple[float, float]] = lambda _: (1.0, 1.0)
-    wind: Callable[[float], tuple[float, float]] = lambda _: (0.0, 0.0)
+    flight_path_deg: Callable[[float], float] = _zero
+    speed_m_s: Callable[[float], float] = _zero
+    effectiveness: Callable[[float], tuple[float, float]] = _whole
+    wind: Callable[[float], tuple[float, float]] = _calm
     handover_s: float = float("inf")
     jumps_s: Sequence[float] = field(default_factory=tuple)
 
