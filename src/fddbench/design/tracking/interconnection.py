@@ -88,7 +88,17 @@ def generalised_plant(flying: LinearAircraft, weights: Weights) -> StateSpace:
     return wire(
         [flying.block(altitude=False), *ACTUATORS, models(*w.settling_s), integrals, efforts],
         wires | commands,
-        inputs=["c_flight_path", "c_speed", "d_elevator", "d_thrust", "d_down", "d_along", *noise, "u_elevator", "u_thrust"],
+        inputs=[
+            "c_flight_path",
+            "c_speed",
+            "d_elevator",
+            "d_thrust",
+            "d_down",
+            "d_along",
+            *noise,
+            "u_elevator",
+            "u_thrust",
+        ],
         outputs=_tolerated(w) | commands | known,
     )
 
