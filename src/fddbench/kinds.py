@@ -26,6 +26,7 @@ FAMILIES: Mapping[str, tuple[str, ...]] = {
     "sensor": (),
     "wind": (),
     "detector": ("Gains", "from_design"),
+    "scheduling": ("about", "signals", "parameters", "rho"),
     "recipe": ("spelled_out", "in_folder", "make"),
 }
 """Family → what a member must have whoever uses it; a choice of a benchmark may ask for more (`Choice.needs`)."""
