@@ -95,7 +95,7 @@ class LpvFilterRecipe(ModelRecipe):
             "outputs": [channel_data(channel) for channel in model.outputs],
             "inputs": [channel_data(channel) for channel in model.inputs],
             "bend": _members(model.C @ model.A @ np.linalg.pinv(model.C), box),
-            "filters": [_filter(found, model.C, box, directions[name][1]) for name, found in bank.items()],
+            "filters": [_filter(found, model, box, directions[name][1]) for name, found in bank.items()],
             "thresholds": [1.0] * len(bank),
             "confirm_s": self.confirm_s,
         }
@@ -130,7 +130,7 @@ def _direction(name: str, entry: DirectionEntry, model: AffineModel) -> tuple[Fl
     return model.B[:, :, [column]], 1.0 / model.inputs[column].scale
 
 
-def _filter(found: ResidualGenerator, C: Floats, box: Box, unit_per_fault: float) -> dict[str, Any]:
+def _filter(found: ResidualGenerator, model: AffineModel, box: Box, unit_per_fault: float) -> dict[str, Any]:
     """Numbers of one filter as its design writes them."""
     points = box.looked_at(box.active(found.N, found.PL))
     least = min(float(np.linalg.norm(found.steady_gain(rho))) for rho in points)
@@ -138,21 +138,24 @@ def _filter(found: ResidualGenerator, C: Floats, box: Box, unit_per_fault: float
         "site": found.fault,
         "N": _members(found.N, box),
         "G": _members(found.G, box),
-        "F": _members(found.F, box),
+        "F": _members(found.F, box, np.abs(found.P) @ np.abs(model.B)),
         "M": _members(found.M[np.newaxis], box)[0],
         "H": _members(found.H[np.newaxis], box)[0],
         "PL": _members(found.PL, box),
-        "start": _members((found.P @ np.linalg.pinv(C))[np.newaxis], box)[0],
+        "start": _members((found.P @ np.linalg.pinv(model.C))[np.newaxis], box)[0],
         "unit_per_fault": unit_per_fault,
         "least_gain": 0.5 * least,
     }
 
 
-def _members(table: Floats, box: Box) -> list[list[list[float]]]:
-    """A family as lists without rounding and negative zeros; the constant matrix alone where nothing else moves it."""
-    largest = np.concatenate([[1.0], np.maximum(np.abs(box.low), np.abs(box.high))])[: len(table)]
-    size = np.abs(table) * largest[:, np.newaxis, np.newaxis]
-    kept = np.where(size > _NOISE * size.max(axis=(0, 1), initial=0.0), table, 0.0)
+def _members(table: Floats, box: Box, terms: Floats | None = None) -> list[list[list[float]]]:
+    """A family as lists without rounding and negative zeros; the constant matrix alone where nothing else moves it.
+
+    `terms` is the size of what its numbers were summed of, by default they themselves.
+    """
+    largest = np.concatenate([[1.0], np.maximum(np.abs(box.low), np.abs(box.high))])[: len(table), None, None]
+    size = (np.abs(table) if terms is None else terms) * largest
+    kept = np.where(np.abs(table) * largest > _NOISE * size.max(axis=(0, 1), initial=0.0), table, 0.0)
     return [matrix.tolist() for matrix in (kept if np.any(kept[1:]) else kept[:1])]
 
 

@@ -21,7 +21,7 @@ def require_channels(entries: Sequence[ChannelEntry], bus: Bus, what: str) -> No
     what : str
         Key that they stand under, for messages.
     """
-    bus.require(*(entry.signal for entry in entries if entry.signal is not None))
+    bus.require(*dict.fromkeys(entry.signal for entry in entries if entry.signal is not None))
     for number, entry in enumerate(entries):
         if entry.signal is None:
             continue

@@ -13,7 +13,7 @@ from fddbench.interfaces import Bus, Floats, Scheduling
 
 __all__ = ["require_fit"]
 
-_LARGEST_REST = 1e-9
+_LARGEST_REST = 1e-7
 """Of the series by which a filter whose N moves is stepped [-]."""
 _SIDES = {
     "N": ("k", "k"), "G": ("k", "y"), "F": ("k", "u"), "PL": ("k", "one"), "M": ("r", "k"), "H": ("r", "y"),
