@@ -25,6 +25,7 @@ FAMILIES: Mapping[str, tuple[str, ...]] = {
     "voter": (),
     "sensor": (),
     "wind": (),
+    "law": (),
     "detector": ("Gains", "from_design"),
     "scheduling": ("about", "signals", "parameters", "rho"),
     "recipe": ("spelled_out", "in_folder", "make"),

@@ -21,6 +21,7 @@ __all__ = [
     "MOST_SITES",
     "SENSORS_A",
     "SENSORS_B",
+    "SENSORS_C",
     "START",
     "UNCERTAINTY_0",
     "fault_number",
@@ -39,6 +40,8 @@ UNCERTAINTY_0: Final = 4
 """Uncertain dynamics of a flight, first four numbers; the next ones follow: 4..9."""
 DISTURBANCE: Final = 10
 """Disturbances of a sample, at most four."""
+SENSORS_C: Final = 11
+"""Sensor noise, four more."""
 DRYDEN_LONGITUDINAL: Final = 12
 """Dryden turbulence of a sample in the plane of symmetry: one number of u, three of w (q follows from w)."""
 DRYDEN_LATERAL: Final = 13

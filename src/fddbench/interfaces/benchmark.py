@@ -8,7 +8,7 @@ from fddbench.interfaces.fault import Fault
 from fddbench.interfaces.loop import Loop
 from fddbench.interfaces.site import Site
 
-__all__ = ["Benchmark", "Choice", "Options", "Parameter", "Plant", "SinglePlant", "default_choices"]
+__all__ = ["Benchmark", "Choice", "Detectability", "Options", "Parameter", "Plant", "SinglePlant", "default_choices"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,6 +75,32 @@ class Options:
     faults: Sequence[Sequence[Fault]] = field(default=())
 
 
+@dataclass(frozen=True, kw_only=True)
+class Detectability:
+    """A map that the report draws: the smallest fault of a site that is found, over two parameters.
+
+    Attributes
+    ----------
+    site : str
+        The map is of faults of this site alone.
+    size : str
+        Their size as their kind writes it, ``loss_percent``; a scenario is on the map if it draws or sweeps it.
+    axes : (str, str)
+        What varies along the horizontal and the vertical axis: parameters of the plant, or what `derived` gives.
+    times : str
+        By whose magnitude a size is multiplied, what `derived` gives or a parameter; "" for nothing. A size in percent is a
+        share of it, and the product has its unit.
+    hatch_below : float
+        Where the median of that magnitude is smaller the map is hatched: all of it would be a small fault.
+    """
+
+    site: str
+    size: str
+    axes: tuple[str, str]
+    times: str = ""
+    hatch_below: float = 0.0
+
+
 class Plant(Protocol):
     """What flies: its parameters, what it refuses, what it can do; a benchmark with a single one may be its own plant."""
 
@@ -93,7 +119,10 @@ class Benchmark(Protocol):
 
     For the report it may have more, and has these otherwise: ``envelope_axes``, pairs of parameters that belong on the two
     axes of a picture (none); ``published``, the printed table that stands beside its results unless a campaign names another,
-    and ``iterations``, the printed course of an optimisation: files of ``reports/published`` by their names ("": none).
+    and ``iterations``, the printed course of an optimisation: files of ``reports/published`` by their names ("": none);
+    ``detectability``, the `Detectability` maps that are drawn (none); a method ``derived(chosen, parameters)``, more numbers of
+    flights by name with unit, (n_cases,) arrays (a trim, say), of the chosen options by key and of the parameters of flights,
+    (n_cases,) arrays by name (none).
     """
 
     name: str
@@ -125,6 +154,7 @@ class SinglePlant:
     shown: tuple[str, ...] = ()
     limits_from = "the author of the benchmark"
     envelope_axes: Sequence[tuple[str, str]] = ()
+    detectability: Sequence[Detectability] = ()
     published = ""
     iterations = ""
 
