@@ -119,9 +119,9 @@ class KalmanMonitor:
         return cls(gains, bus)
 
     def start(self, c: Nothing) -> KalmanMonitorState:
-        """At the flight condition, with innovations of the size that was assumed."""
+        """At the flight condition."""
         del c
-        return KalmanMonitorState(x=0.0, mean=1.0, held_samples=0.0, alarm=0.0)
+        return KalmanMonitorState(x=0.0, mean=0.0, held_samples=0.0, alarm=0.0)
 
     def step(
         self, x: KalmanMonitorState, c: Nothing, n: Nothing, measured: SimpleNamespace

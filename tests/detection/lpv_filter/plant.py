@@ -11,7 +11,7 @@ from fddbench.detection.lpv_filter.detector import LpvFilter
 from fddbench.detection.lpv_filter.gains import LpvFilterGains
 from fddbench.interfaces import Bus, Site
 
-SAMPLE_S = 0.02
+SAMPLE_S = 0.04
 A = np.array([
     [[-1.0, 1.0, 0.0], [-2.0, -1.0, 0.5], [0.3, 0.2, -0.7]],
     [[0.0, 0.3, 0.0], [0.5, 0.0, 0.2], [0.0, 0.0, 0.3]],
@@ -79,7 +79,7 @@ def detector(C, **more):
     return LpvFilter.from_design(gains(C, **more), bus(C), Tilt)
 
 
-def fly(detector, C, *added_deg, time_s=10.0, x0=(0.0, 0.0, 0.0)):
+def fly(detector, C, *added_deg, time_s=8.0, x0=(0.0, 0.0, 0.0)):
     """Estimates [deg] and declarations, (n_time, 2, n_flights), with `added_deg(t)` on both inputs, a flight each.
 
     The parameter and the inputs are held over a sample.

@@ -17,7 +17,7 @@ BANKS = {
 }
 
 
-def step_of(left, right, since=5.0):
+def step_of(left, right, since=4.0):
     return lambda t: np.array([left, right]) if t >= since else np.zeros(2)
 
 
@@ -27,22 +27,22 @@ def test_a_fault_shows_in_its_own_estimate_and_in_no_other(bank):
     made = detector(C, **how)
     assert any(each.varies for each in made.filters) == (bank == "N moves")
     estimate, _ = fly(made, C, step_of(2.0, 0.0), step_of(0.0, -3.0))
-    # an unmeasured state bends the outputs between samples, and nobody sees it
-    worst, near = (3e-3, 0.4) if bank == "N moves" else (1e-6, 0.02)
+    # an unmeasured state bends the outputs between samples, and nobody sees it; L moves faster than the filters follow
+    worst, near = (3e-3, 0.4) if bank == "N moves" else (1e-6, 0.2)
     for flight, own, size in ((0, 0, 2.0), (1, 1, -3.0)):
         peak = np.abs(estimate[:, own, flight]).max()
         assert np.abs(estimate[:, 1 - own, flight]).max() < worst * peak
-        assert np.abs(estimate[: round(5.0 / SAMPLE_S)]).max() < worst
+        assert np.abs(estimate[: round(4.0 / SAMPLE_S)]).max() < worst
         assert estimate[-1, own, flight] == pytest.approx(size, rel=near)
 
 
 def test_the_estimate_is_the_fault_through_a_lag_of_the_decay():
     estimate, declared = fly(detector(ALL, decay=4.0), ALL, step_of(2.0, 0.0))
-    after = round(5.0 / SAMPLE_S) + np.arange(1, 100)
-    expected = 2.0 * (1.0 - np.exp(-4.0 * SAMPLE_S * np.arange(1, 100)))
+    after = round(4.0 / SAMPLE_S) + np.arange(1, 50)
+    expected = 2.0 * (1.0 - np.exp(-4.0 * SAMPLE_S * np.arange(1, 50)))
     np.testing.assert_allclose(estimate[after, 0, 0], expected, atol=0.02)
     first = np.argmax(estimate[:, 0, 0] > 1.0)
-    assert np.argmax(declared[:, 0, 0] > 0.0) == first + 10  # confirm_s 0.2 at 0.02 s
+    assert np.argmax(declared[:, 0, 0] > 0.0) == first + 5  # confirm_s 0.2 at 0.04 s
     assert declared[-1, :, 0].tolist() == [1.0, 0.0]
 
 
@@ -63,7 +63,7 @@ def test_an_estimate_is_not_blown_up_where_its_fault_hardly_shows():
 
 def test_the_offset_of_its_estimates_is_taken_out():
     trim = {"time_constant_s": 2.0, "freeze_above": [3.0, 3.0], "learn_s": 1.0}
-    estimate, _ = fly(detector(ALL, trim=trim), ALL, step_of(2.0, 0.0, since=0.0), time_s=15.0)
+    estimate, _ = fly(detector(ALL, trim=trim), ALL, step_of(2.0, 0.0, since=0.0), time_s=12.0)
     assert np.abs(estimate[-1]).max() < 0.01
 
 
@@ -91,7 +91,7 @@ def test_it_is_traced(bank):
         ({"thresholds": [1.0]}, "thresholds has 1 numbers for 2 filters"),
         ({"trim": {"time_constant_s": 1.0, "freeze_above": [1.0]}}, "trim.freeze_above has 1 numbers for 2"),
         ({"bend": [np.eye(3).tolist()] * 3}, "bend has 3 matrices for 1 scheduling parameters; it needs 1 or 2"),
-        ({"confirm_s": 0.03}, "confirm_s"),
+        ({"confirm_s": 0.05}, "confirm_s"),
     ],
 )
 def test_banks_that_cannot_fly_say_why(change, message):

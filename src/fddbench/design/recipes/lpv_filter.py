@@ -55,6 +55,8 @@ class LpvFilterRecipe(ModelRecipe):
         Decay rate of the filters [1/s].
     one_state : bool
         Whether to take filters of one state where there are such.
+    smooth_s : mapping of site to float
+        Time constant of a lag on the estimate [s]; none where nothing is said.
     confirm_s : float
         Copied into the gains [s].
     trim : TrimEntry
@@ -65,6 +67,7 @@ class LpvFilterRecipe(ModelRecipe):
     blind_to: Directions = Field(default_factory=dict)
     decay: Annotated[float, Field(gt=0.0)]
     one_state: bool = True
+    smooth_s: dict[Name, Annotated[float, Field(ge=0.0)]] = Field(default_factory=dict)
     confirm_s: Annotated[float, Field(ge=0.0)]
     trim: TrimEntry | None = None
 
@@ -82,6 +85,9 @@ class LpvFilterRecipe(ModelRecipe):
         twice = sorted(set(self.faults) & set(self.blind_to))
         if twice:
             raise DesignError(f"recipe.blind_to: {twice[0]!r} has a filter; take it away there or from faults")
+        unknown = sorted(set(self.smooth_s) - set(self.faults))
+        if unknown:
+            raise DesignError(f"recipe.smooth_s: no filter for {unknown[0]!r}; there are {', '.join(self.faults)}")
         model = self.affine()
         entries = {**self.faults, **self.blind_to}
         directions = {name: _direction(name, entry, model) for name, entry in entries.items()}
@@ -95,7 +101,9 @@ class LpvFilterRecipe(ModelRecipe):
             "outputs": [channel_data(channel) for channel in model.outputs],
             "inputs": [channel_data(channel) for channel in model.inputs],
             "bend": _members(model.C @ model.A @ np.linalg.pinv(model.C), box),
-            "filters": [_filter(found, model, box, directions[name][1]) for name, found in bank.items()],
+            "filters": [
+                _filter(found, model, box, directions[name][1]) | self._smoothed(name) for name, found in bank.items()
+            ],
             "thresholds": [1.0] * len(bank),
             "confirm_s": self.confirm_s,
         }
@@ -103,6 +111,9 @@ class LpvFilterRecipe(ModelRecipe):
         moving = box.active(model.A)
         found = {"parameters_in_A": [j + 1 for j in moving], "corners": 2 ** len(moving)}
         return Made(gains=gains, found=found | {name: _findings(one) for name, one in bank.items()})
+
+    def _smoothed(self, name: str) -> dict[str, float]:
+        return {"smooth_s": self.smooth_s[name]} if self.smooth_s.get(name) else {}
 
 
 def _entry(value: Any) -> Any:

@@ -23,9 +23,10 @@ __all__ = ["LpvFilter"]
 
 @record
 class LpvFilterState:
-    """State of each filter; signals of the sample before; offsets, where they are taken out; the decision."""
+    """State of each filter; estimates, and signals, of the sample before; offsets, where they are taken out; the decision."""
 
     w: tuple[Rows, ...]
+    smoothed: Rows
     y: Rows
     u: Rows
     rho: Rows
@@ -70,7 +71,7 @@ class LpvFilter:
         n, n_rho = len(self.watches), 0 if scheduling is None else len(scheduling.parameters)
         self.states = Layout(
             LpvFilterState(
-                w=tuple(each.order for each in self.filters), y=len(gains.outputs), u=len(gains.inputs) or ROW,
+                w=tuple(each.order for each in self.filters), smoothed=n, y=len(gains.outputs), u=len(gains.inputs) or ROW,
                 rho=n_rho or ROW, begun=ROW, trim=tuple(each.shape for each in self.trackers), held_samples=n, declared=n,
             )
         )  # fmt: skip
@@ -90,7 +91,7 @@ class LpvFilter:
         """Nothing declared; filters begin with the first sample."""
         del c
         return LpvFilterState(
-            w=tuple(0.0 for _ in self.filters), y=0.0, u=0.0, rho=0.0, begun=0.0,
+            w=tuple(0.0 for _ in self.filters), smoothed=0.0, y=0.0, u=0.0, rho=0.0, begun=0.0,
             trim=tuple(each.start() for each in self.trackers), held_samples=0.0, declared=0.0,
         )  # fmt: skip
 
@@ -101,9 +102,10 @@ class LpvFilter:
         del c, n
         y, u = rows_of(self.outputs, measured, x.begun), rows_of(self.inputs, measured, x.begun)
         rho = x.rho if self.scheduling is None else self.scheduling.rho(measured)
-        w = self._moved(x, y, u)
-        estimate = np.stack([own.fault(each, y, rho) for own, each in zip(self.filters, w, strict=True)])
-        trims = []
+        w, first = self._moved(x, y, u), x.begun < 0.5
+        faults = zip(self.filters, w, x.smoothed, strict=True)
+        smoothed = np.stack([own.smoothed(before, own.fault(each, y, rho), first) for own, each, before in faults])
+        estimate, trims = smoothed, []
         for tracker, offset in zip(self.trackers, x.trim, strict=True):
             trim, estimate = tracker.step(offset, estimate)
             trims.append(trim)
@@ -113,7 +115,15 @@ class LpvFilter:
         for i, name in enumerate(self.watches):
             shown[f"threshold_{name}"] = np.zeros_like(estimate[i]) + self.thresholds[i]
         after = LpvFilterState(
-            w=w, y=y, u=u, rho=rho, begun=np.ones_like(x.begun), trim=tuple(trims), held_samples=held, declared=declared
+            w=w,
+            smoothed=smoothed,
+            y=y,
+            u=u,
+            rho=rho,
+            begun=np.ones_like(x.begun),
+            trim=tuple(trims),
+            held_samples=held,
+            declared=declared,
         )
         residual = largest(np.abs(estimate) / self.thresholds)
         return after, Verdict(declared, residual, signals=shown, estimate=estimate)

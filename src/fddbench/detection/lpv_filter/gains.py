@@ -68,6 +68,8 @@ class FilterEntry(_Strict):
     least_gain : float
         Smallest length of ``M N^-1 PL`` that an estimate is divided by: half of the smallest over the box, so that no
         estimate is blown up outside.
+    smooth_s : float
+        Time constant of a lag on the estimate [s]; 0: none. Noise of an output goes straight into it otherwise.
     """
 
     site: str
@@ -80,6 +82,7 @@ class FilterEntry(_Strict):
     start: Matrix
     unit_per_fault: Number = 1.0
     least_gain: Positive
+    smooth_s: NonNegative = 0.0
 
 
 class TrimEntry(_Strict):

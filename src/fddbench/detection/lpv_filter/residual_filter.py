@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from fddbench.blocks.functions import exp
 from fddbench.blocks.layout import Row, Rows
 from fddbench.blocks.linear import affine, column, product, total
 from fddbench.blocks.solve import solve
@@ -27,6 +28,7 @@ class ResidualFilter:
         self.N, self.G, self.F, self.PL = (table_of(family) for family in (entry.N, entry.G, entry.F, entry.PL))
         self.M, self.H, self.first = column(entry.M), column(entry.H), column(entry.start)
         self.unit, self.least = entry.unit_per_fault, entry.least_gain * entry.least_gain
+        self.share = float(1.0 - exp(np.array(-sample_s / entry.smooth_s))) if entry.smooth_s else 1.0
         self.order, self.varies = self.N.shape[1], len(self.N) > 1
         N = self.N[0, :, :, 0]
         self.constant, self.varying = Constant(N, sample_s), Varying(sample_s)
@@ -42,6 +44,10 @@ class ResidualFilter:
         a = tuple(-product(G, y) for y in course.y)
         a = (a[0] + product(F, course.u[0]), a[1] + product(F, course.u[1]), a[2])
         return self.varying.step(affine(self.N, rho), w, a) if self.varies else self.constant.step(w, a)
+
+    def smoothed(self, before: Row, fault: Row, first: Row) -> Row:
+        """Estimate behind its lag, (n_cases,), of that of the sample before."""
+        return fault if self.share == 1.0 else np.where(first, fault, before + self.share * (fault - before))
 
     def fault(self, w: Rows, y: Rows, rho: Rows) -> Row:
         """Size of the fault, (n_cases,) in the unit of its site, that leaves this residual when it is steady."""
