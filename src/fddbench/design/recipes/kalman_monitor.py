@@ -53,15 +53,7 @@ class KalmanMonitorRecipe(ModelRecipe):
             )
         A, B, Q = _sampled(model.A[0], model.B[0], np.diag(np.square(self.process_noise)), self.sample_s)
         R = np.diag(np.square(self.output_noise))
-        try:
-            P = solve_discrete_are(A.T, model.C.T, Q, R)
-        except (np.linalg.LinAlgError, ValueError) as error:
-            raise DesignError(
-                f"there is no steady Kalman filter ({error}): a state that is not stable must be seen by an output and reached "
-                "by process noise"
-            ) from error
-        S = model.C @ P @ model.C.T + R
-        K = A @ P @ model.C.T @ np.linalg.inv(S)
+        K, S = _steady(A, model.C, Q, R)
         W = np.linalg.inv(np.linalg.cholesky(S))
         gains: dict[str, Any] = {
             "outputs": [channel_data(channel) for channel in model.outputs],
@@ -80,6 +72,22 @@ class KalmanMonitorRecipe(ModelRecipe):
             "slowest_time_constant_s": short(-self.sample_s / float(np.log(slowest))),
         }
         return Made(gains=gains, found=found)
+
+
+def _steady(A: Floats, C: Floats, Q: Floats, R: Floats) -> tuple[Floats, Floats]:
+    """Gain of the predictor and covariance of its innovations."""
+    try:
+        P = solve_discrete_are(A.T, C.T, Q, R)
+        S = C @ P @ C.T + R
+        K = A @ P @ C.T @ np.linalg.inv(S)
+        stable = float(np.abs(np.linalg.eigvals(A - K @ C)).max()) < 1.0 - 1e-9
+    except (np.linalg.LinAlgError, ValueError):
+        stable = False
+    if not stable:
+        raise DesignError(
+            "there is no steady Kalman filter: a state that is not stable must be seen by an output and reached by process noise"
+        )
+    return K, S
 
 
 def _sampled(A: Floats, B: Floats, Q: Floats, sample_s: float) -> tuple[Floats, Floats, Floats]:
