@@ -40,6 +40,7 @@ def test_it_is_silent_on_its_model_and_alarms_on_what_it_does_not_know():
     alarms, means = fly(made, lambda k: 0.0)
     assert not alarms.any()
     assert means.max() < 1e-20
+    assert fly(made, lambda k: 7.0)[1].max() < 1e-20  # another trim is none of its business
     alarms, means = fly(made, lambda k: 0.5 * (k - 300) if k >= 300 else 0.0)
     assert np.argmax(alarms) > 300
     first = np.argmax(means > 4.0)
@@ -48,8 +49,8 @@ def test_it_is_silent_on_its_model_and_alarms_on_what_it_does_not_know():
 
 
 def test_its_mean_is_a_lag_of_the_squared_whitened_innovation():
-    _, means = fly(monitor(K=[[0.0]], A=[[0.5]], B=[[0.0]]), lambda k: 1.5, n=2)
-    assert means[0] == pytest.approx((1.0 - np.exp(-0.1)) * (2.0 * 1.5) ** 2)
+    _, means = fly(monitor(K=[[0.0]], A=[[0.5]], B=[[0.0]]), lambda k: 1.5 * k, n=2)
+    assert means[1] == pytest.approx((1.0 - np.exp(-0.1)) * (2.0 * 1.5) ** 2)
 
 
 @pytest.mark.parametrize(

@@ -30,7 +30,7 @@ class KalmanMonitorGains(BaseModel):
     Attributes
     ----------
     outputs, inputs : channels
-        y and u about the flight condition.
+        y and u; what they were at the first sample is taken off.
     sample_s : float
         Clock that the matrices are for [s].
     A, B, C, K, W : matrices
@@ -60,9 +60,12 @@ class KalmanMonitorGains(BaseModel):
 
 @record
 class KalmanMonitorState:
-    """Predicted state; mean of the squared innovations; for how long it has exceeded; whether it alarms."""
+    """Predicted state; outputs and inputs of the first sample, and whether there was one; the mean and the decision on it."""
 
     x: Rows
+    y_first: Rows
+    u_first: Rows
+    begun: Row
     mean: Row
     held_samples: Row
     alarm: Row
@@ -71,7 +74,8 @@ class KalmanMonitorState:
 class KalmanMonitor:
     """Alarms, for good, when the mean square of the whitened innovations stays above a threshold; declares no site.
 
-    Model assumed: the linear model of one flight condition with white noise of known size. Everything that the model does not
+    Model assumed: the linear model of one flight condition, about the trim that a flight begins in, with white noise of known
+    size. Everything that the model does not
     know raises the innovations, a fault as well as a manoeuvre that leaves the condition, a gust or another mass: it cannot
     tell which. Knobs: less process noise makes it sharper for small faults and blinder for model errors; the mean trades
     noise for delay; the threshold (``fddbench tune``) false alarms for misses. Cost: n_x (n_x + n_u + 2 n_y) + n_y^2 products.
@@ -95,7 +99,12 @@ class KalmanMonitor:
         self.A, self.B, self.C, self.K, self.W = (column(m) for m in (gains.A, gains.B, gains.C, gains.K, gains.W))
         self.share = float(1.0 - exp(np.array(-bus.sample_s / gains.mean_s)))
         self.confirm_samples = samples("confirm_s", gains.confirm_s, bus.sample_s)
-        self.states = Layout(KalmanMonitorState(x=len(gains.A), mean=ROW, held_samples=ROW, alarm=ROW))
+        self.states = Layout(
+            KalmanMonitorState(
+                x=len(gains.A), y_first=len(gains.outputs), u_first=len(gains.inputs), begun=ROW, mean=ROW,
+                held_samples=ROW, alarm=ROW,
+            )
+        )  # fmt: skip
 
     @classmethod
     def from_design(cls, gains: KalmanMonitorGains, bus: Bus) -> "KalmanMonitor":
@@ -119,9 +128,9 @@ class KalmanMonitor:
         return cls(gains, bus)
 
     def start(self, c: Nothing) -> KalmanMonitorState:
-        """At the flight condition."""
+        """In trim."""
         del c
-        return KalmanMonitorState(x=0.0, mean=0.0, held_samples=0.0, alarm=0.0)
+        return KalmanMonitorState(x=0.0, y_first=0.0, u_first=0.0, begun=0.0, mean=0.0, held_samples=0.0, alarm=0.0)
 
     def step(
         self, x: KalmanMonitorState, c: Nothing, n: Nothing, measured: SimpleNamespace
@@ -129,12 +138,22 @@ class KalmanMonitor:
         """Verdict after one sample."""
         del c, n
         y, u = rows_of(self.outputs, measured, x.mean), rows_of(self.inputs, measured, x.mean)
-        e = y - product(self.C, x.x)
+        first: Rows = x.begun < 0.5
+        y_first, u_first = np.where(first, y, x.y_first), np.where(first, u, x.u_first)
+        e = y - y_first - product(self.C, x.x)
         white = product(self.W, e)
         mean = x.mean + self.share * (total(white * white) / float(len(self.outputs)) - x.mean)
         held = held_samples(x.held_samples, mean > self.threshold)
         alarm = np.maximum(x.alarm, np.where(held - 1.0 >= self.confirm_samples, 1.0, 0.0))
-        predicted = product(self.A, x.x) + product(self.B, u) + product(self.K, e)
+        predicted = product(self.A, x.x) + product(self.B, u - u_first) + product(self.K, e)
         shown = {"innovation_mean": mean, "threshold": np.zeros_like(mean) + self.threshold}
-        after = KalmanMonitorState(x=predicted, mean=mean, held_samples=held, alarm=alarm)
+        after = KalmanMonitorState(
+            x=predicted,
+            y_first=y_first,
+            u_first=u_first,
+            begun=np.ones_like(mean),
+            mean=mean,
+            held_samples=held,
+            alarm=alarm,
+        )
         return after, Verdict(None, mean / self.threshold, signals=shown, alarm=alarm)

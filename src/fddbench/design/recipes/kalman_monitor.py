@@ -85,7 +85,7 @@ def _steady(A: Floats, C: Floats, Q: Floats, R: Floats) -> tuple[Floats, Floats]
         stable = False
     if not stable:
         raise DesignError(
-            "there is no steady Kalman filter: a state that is not stable must be seen by an output and reached by process noise"
+            "there is no steady Kalman filter: unstable states must be seen by outputs and reached by process noise"
         )
     return K, S
 
