@@ -2,15 +2,18 @@
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
+from itertools import count
 
 from fddbench.blocks import rings
 from fddbench.blocks.operations import OPERATIONS
+from fddbench.blocks.pending import Pending
 from fddbench.blocks.philox import PER_DRAW
 from fddbench.blocks.plan import Plan
 from fddbench.blocks.program import Program
 from fddbench.blocks.rare import Region, region
 from fddbench.blocks.rewrite import depends_only_on
 from fddbench.blocks.schedule import latency, longest_first
+from fddbench.blocks.seldom import Update, updates
 from fddbench.blocks.stretch import Shared, Writer
 
 __all__ = ["Spec", "lower"]
@@ -65,6 +68,8 @@ class _Kernel(Writer):
         self._kept: dict[int, int] = {}
         self._reads = rings.reads(spec.program)
         self._writes = rings.writes(spec.program)
+        self._pending = Pending({}, {}, ())
+        self._skips = count()
 
     def prologue(self) -> None:
         """Compute what depends on the constants alone, and keep what a sample needs of it."""
@@ -81,20 +86,40 @@ class _Kernel(Writer):
 
     def sample(self) -> tuple[int, ...]:
         """One sample: new state into the workspace, recorded rows into the tile; registers of ``finished``."""
-        state = self.program.outputs["state"]
-        ringed = {row for ring in self._writes for row in range(ring.first, ring.first + ring.depth)}
-        moving = [row for row, node in enumerate(state) if row not in ringed and not self._still(row, node)]
         finished = self.program.outputs.get("finished", ())
-        wanted = [state[row] for row in moving]
-        wanted += [node for ring in self._writes for node in (ring.index, ring.value)]
-        self._compute([*wanted, *finished, *self.recorded])
-        for row in moving:
-            self.do("store", self.value(state[row]), value=row)
+        outputs = [*finished, *self.recorded, *(node for ring in self._writes for node in (ring.index, ring.value))]
+        moving, ringed = self._moving()
+        needed = self._needed([*moving.values(), *outputs])
+        reads = {j: rows for j in needed if (rows := self._rows_read(j))}
+        seldom = updates(self.program, moving | ringed, needed, self._arguments, outputs, reads)
+        behind = {j for update in seldom for j in update.inside}
+        always = {row: node for row, node in moving.items() if node not in behind}
+        before = {a for j in behind for a in self._arguments(j)} - behind
+        self._pending = Pending(always, reads, needed - behind)
+        self._compute(needed - behind, {*always.values(), *outputs, *before})
+        self._store(self._pending.rest())
+        for update in seldom:
+            self._pending = Pending({row: moving[row] for row in update.rows}, reads, update.inside)
+            self._update(update)
         for ring in self._writes:
             self.do("ring_store", self.value(ring.index), self.value(ring.value), value=(ring.first, ring.depth))
         for number, node in enumerate(self.recorded):
             self.do("record", self.value(node), value=number)
         return tuple(self.value(node) for node in finished)
+
+    def _moving(self) -> tuple[dict[int, int], dict[int, int]]:
+        """Node that each state row becomes which does not stay as it is: single rows, and those of rings."""
+        rows = enumerate(self.program.outputs["state"])
+        ringed = {row for ring in self._writes for row in range(ring.first, ring.first + ring.depth)}
+        moving = {row: node for row, node in rows if row in ringed or self._state_row(node) != row}
+        return {r: j for r, j in moving.items() if r not in ringed}, {r: j for r, j in moving.items() if r in ringed}
+
+    def _rows_read(self, j: int) -> Collection[int]:
+        """State rows that a node reads from the workspace."""
+        if j in self._reads:
+            return range(self._reads[j].first, self._reads[j].first + self._reads[j].depth)
+        row = self._state_row(j)
+        return () if row < 0 else (row,)
 
     def written(self, j: int) -> int:
         """Register of a node, written now: what the prologue has kept is loaded."""
@@ -116,13 +141,8 @@ class _Kernel(Writer):
         draw, word = divmod(row, PER_DRAW)
         return self.let("uniform", self.leaf("draw", self.spec.streams[draw]), value=word)
 
-    def _still(self, row: int, node: int) -> bool:
-        """Whether a state row stays as it is."""
-        return bool(self.program.nodes[node].value == ("state", row))
-
-    def _compute(self, wanted: list[int]) -> None:
-        """Write all that some nodes need, what is seldom needed behind a branch."""
-        needed = self._needed(wanted)
+    def _compute(self, needed: set[int], wanted: Collection[int]) -> None:
+        """Write some nodes, what is seldom needed behind a branch."""
         seldom = region(self.program, needed, self._kept, wanted)
         if seldom is not None:
             around = [
@@ -140,15 +160,31 @@ class _Kernel(Writer):
         mask = self.value(seldom.conditions[0])
         for condition in seldom.conditions[1:]:
             mask = self.let("or", mask, self.value(condition))
-        before = self.known()
-        self.do("skip", mask)
-        self._write(seldom.inside)
+        number, before = next(self._skips), self.known()
+        self.do("skip", mask, value=number)
+        self._write(seldom.inside, store=False)
         inside = [self._as_number(node) for node in seldom.results]
-        self.do("resume")
+        self.do("resume", value=number)
         self.recall(before)
-        joined = [self.let("join", register) for register in inside]
+        joined = [self.let("join", register, value=number) for register in inside]
         for node, register in zip(seldom.results, joined, strict=True):
             self.registers[node] = self._from_number(node, register)
+        for node in seldom.inside:
+            self._store(self._pending.ready(node))
+
+    def _update(self, update: Update) -> None:
+        """Write state rows that seldom change, and the branch around them."""
+        number, before = next(self._skips), self.known()
+        self.do("skip", self.value(update.condition), value=number)
+        self._write(update.inside)
+        self._store(self._pending.rest())
+        self.do("resume", value=number)
+        self.recall(before)
+
+    def _store(self, rows: Iterable[int]) -> None:
+        """Write new state rows into the workspace."""
+        for row in rows:
+            self.do("store", self.value(self.program.outputs["state"][row]), value=row)
 
     def _draws(self, nodes: Collection[int]) -> set[int]:
         """Draws that some nodes take numbers of."""
@@ -165,10 +201,12 @@ class _Kernel(Writer):
                 left.extend(self._arguments(node))
         return seen
 
-    def _write(self, nodes: Collection[int]) -> None:
-        """Write nodes in a good order."""
+    def _write(self, nodes: Collection[int], *, store: bool = True) -> None:
+        """Write nodes in a good order, and store the state rows that are ready then."""
         for j in longest_first(nodes, self._arguments, lambda j: latency(self.program, j, loaded=j in self._kept)):
             self.value(j)
+            if store:
+                self._store(self._pending.ready(j))
 
     def _arguments(self, node: int) -> tuple[int, ...]:
         """What a node needs inside the loop over samples."""
@@ -183,6 +221,11 @@ class _Kernel(Writer):
     def _from_number(self, node: int, register: int) -> int:
         """The reverse."""
         return self.let("ne", register, self.leaf("literal", 0.0)) if self._boolean(node) else register
+
+    def _state_row(self, node: int) -> int:
+        """Row of a state input, else -1."""
+        value = self.program.nodes[node].value
+        return value[1] if self.program.nodes[node].op == "input" and value[0] == "state" else -1
 
     def _boolean(self, node: int) -> bool:
         return OPERATIONS[self.program.nodes[node].op].result == "b"
