@@ -70,6 +70,7 @@ class _Kernel(Writer):
         self._writes = rings.writes(spec.program)
         self._pending = Pending({}, {}, ())
         self._skips = count()
+        self._rows: dict[int, int] = {}  # of new values that are in the workspace
 
     def prologue(self) -> None:
         """Compute what depends on the constants alone, and keep what a sample needs of it."""
@@ -94,18 +95,31 @@ class _Kernel(Writer):
         seldom = updates(self.program, moving | ringed, needed, self._arguments, outputs, reads)
         behind = {j for update in seldom for j in update.inside}
         always = {row: node for row, node in moving.items() if node not in behind}
-        before = {a for j in behind for a in self._arguments(j)} - behind
-        self._pending = Pending(always, reads, needed - behind)
-        self._compute(needed - behind, {*always.values(), *outputs, *before})
-        self._store(self._pending.rest())
+        pending = self._pending = Pending(always, reads, needed - behind)
+        first = self._first(needed, behind)
+        self._compute(first, {*always.values(), *outputs, *(a for j in needed - first for a in self._arguments(j))})
         for update in seldom:
-            self._pending = Pending({row: moving[row] for row in update.rows}, reads, update.inside)
+            inside = update.inside
+            self._write(self._needed([a for j in inside for a in self._arguments(j) if a not in inside]))
+            self._pending = Pending({row: moving[row] for row in update.rows}, reads, inside)
             self._update(update)
+            self._pending = pending
+            self._rows |= {moving[row]: row for row in update.rows}
+        self._write(self._needed([*always.values(), *outputs]))
+        self._store(pending.rest())
         for ring in self._writes:
             self.do("ring_store", self.value(ring.index), self.value(ring.value), value=(ring.first, ring.depth))
         for number, node in enumerate(self.recorded):
             self.do("record", self.value(node), value=number)
         return tuple(self.value(node) for node in finished)
+
+    def _first(self, needed: set[int], behind: set[int]) -> set[int]:
+        """Nodes that can be computed before any row that seldom changes."""
+        later: set[int] = set()
+        for j in sorted(needed):
+            if j in behind or any(a in later for a in self._arguments(j)):
+                later.add(j)
+        return needed - later
 
     def _moving(self) -> tuple[dict[int, int], dict[int, int]]:
         """Node that each state row becomes which does not stay as it is: single rows, and those of rings."""
@@ -125,6 +139,8 @@ class _Kernel(Writer):
         """Register of a node, written now: what the prologue has kept is loaded."""
         if j in self._kept:
             return self._from_number(j, self.let("load", value=self._kept[j]))
+        if j in self._rows:
+            return self.let("load", value=self._rows[j])
         if j in self._reads:
             ring = self._reads[j]
             return self.let("ring_load", self.value(ring.index), value=(ring.first, ring.depth))
@@ -196,13 +212,14 @@ class _Kernel(Writer):
         left, seen = list(wanted), set[int]()
         while left:
             node = left.pop()
-            if node not in seen:
+            if node not in seen and node not in self.registers and node not in self._rows:
                 seen.add(node)
                 left.extend(self._arguments(node))
         return seen
 
     def _write(self, nodes: Collection[int], *, store: bool = True) -> None:
         """Write nodes in a good order, and store the state rows that are ready then."""
+        nodes = {j for j in nodes if j not in self.registers}
         for j in longest_first(nodes, self._arguments, lambda j: latency(self.program, j, loaded=j in self._kept)):
             self.value(j)
             if store:

@@ -50,14 +50,26 @@ def updates(
     reads : mapping of int to collection of int
         State rows that a node reads, by node.
     """
-    times = Counter(becomes.values())
-    wanted = {*outputs, *(a for j in needed for a in arguments(j))}
-    chosen = {row: j for row, j in becomes.items() if times[j] == 1 and j not in wanted and _seldom(program, row, j)}
-    owners = _owners(program, becomes, needed, arguments, outputs, reads, chosen)
-    rows: dict[int, list[int]] = defaultdict(list)
-    for row, j in chosen.items():
-        rows[owners[j]].append(row)
-    found = [Update(q, tuple(rows[q]), frozenset(j for j in needed if owners[j] == q)) for q in sorted(rows)]
+    times, users = Counter(becomes.values()), defaultdict(set)
+    for j in needed:
+        for a in arguments(j):
+            users[a].add(j)
+    chosen = {row: j for row, j in becomes.items() if times[j] == 1 and _seldom(program, row, j)}
+    while True:
+        owners = _owners(program, becomes, needed, arguments, outputs, reads, chosen)
+        rows: dict[int, list[int]] = defaultdict(list)
+        for row, j in chosen.items():
+            rows[owners[j]].append(row)
+        last = {q: max(chosen[row] for row in some) for q, some in rows.items()}
+        # an update comes as a whole before all that ask for its new rows
+        early = [r for r, j in chosen.items() if any(u < last[owners[j]] and owners[u] != owners[j] for u in users[j])]
+        if not early:
+            break
+        for row in early:
+            del chosen[row]
+    found = [
+        Update(q, tuple(rows[q]), frozenset(j for j in needed if owners[j] == q)) for q in sorted(rows, key=last.get)
+    ]
     return [update for update in found if worth_a_branch(program, update.inside)]
 
 
@@ -76,16 +88,15 @@ def _owners(
     outputs: Collection[int], reads: Mapping[int, Collection[int]], chosen: Mapping[int, int],
 ) -> dict[int, int]:  # fmt: skip
     """The condition that alone calls for a node, or `_ANYWAY`, by node."""
-    owners: dict[int, int] = {}
+    choices = {j: program.nodes[j].arguments[0] for j in chosen.values()}
+    owners: dict[int, int] = dict(choices)
 
     def claim(nodes: Iterable[int], owner: int) -> None:
         for a in nodes:
-            owners[a] = owner if owners.get(a, owner) == owner else _ANYWAY
+            if a not in choices:
+                owners[a] = owner if owners.get(a, owner) == owner else _ANYWAY
 
-    choices = {j: program.nodes[j].arguments[0] for j in chosen.values()}
     claim((*outputs, *(j for row, j in becomes.items() if row not in chosen), *choices.values()), _ANYWAY)
-    for j, condition in choices.items():
-        owners[j] = condition
     for j in sorted(needed, reverse=True):
         # what reads a row must have done so before the row is written, which another update may do
         if any(row in becomes and choices.get(chosen.get(row, -1)) != owners[j] for row in reads.get(j, ())):
