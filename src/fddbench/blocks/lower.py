@@ -13,7 +13,7 @@ from fddbench.blocks.program import Program
 from fddbench.blocks.rare import Region, region
 from fddbench.blocks.rewrite import depends_only_on
 from fddbench.blocks.schedule import latency, longest_first
-from fddbench.blocks.seldom import Update, updates
+from fddbench.blocks.seldom import Update, independent, updates
 from fddbench.blocks.stretch import Shared, Writer
 
 __all__ = ["Spec", "lower"]
@@ -70,7 +70,7 @@ class _Kernel(Writer):
         self._writes = rings.writes(spec.program)
         self._pending = Pending({}, {}, ())
         self._skips = count()
-        self._rows: dict[int, int] = {}  # of new values that are in the workspace
+        self._renewed: dict[int, int] = {}  # node -> its state row, where that has its new value already
 
     def prologue(self) -> None:
         """Compute what depends on the constants alone, and keep what a sample needs of it."""
@@ -89,22 +89,22 @@ class _Kernel(Writer):
         """One sample: new state into the workspace, recorded rows into the tile; registers of ``finished``."""
         finished = self.program.outputs.get("finished", ())
         outputs = [*finished, *self.recorded, *(node for ring in self._writes for node in (ring.index, ring.value))]
-        moving, ringed = self._moving()
+        written = rings.written(self.program)
+        ringed = {row for ring in self._writes for row in range(ring.first, ring.first + ring.depth)}
+        moving = {row: node for row, node in written.items() if row not in ringed}
         needed = self._needed([*moving.values(), *outputs])
         reads = {j: rows for j in needed if (rows := self._rows_read(j))}
-        seldom = updates(self.program, moving | ringed, needed, self._arguments, outputs, reads)
+        seldom = updates(self.program, written, needed, self._arguments, outputs, reads)
         behind = {j for update in seldom for j in update.inside}
         always = {row: node for row, node in moving.items() if node not in behind}
         pending = self._pending = Pending(always, reads, needed - behind)
-        first = self._first(needed, behind)
+        first = independent(needed, behind, self._arguments)
         self._compute(first, {*always.values(), *outputs, *(a for j in needed - first for a in self._arguments(j))})
         for update in seldom:
-            inside = update.inside
-            self._write(self._needed([a for j in inside for a in self._arguments(j) if a not in inside]))
-            self._pending = Pending({row: moving[row] for row in update.rows}, reads, inside)
+            self._write(self._needed(a for j in update.inside for a in self._arguments(j) if a not in update.inside))
+            self._pending = Pending({row: moving[row] for row in update.rows}, reads, update.inside)
             self._update(update)
             self._pending = pending
-            self._rows |= {moving[row]: row for row in update.rows}
         self._write(self._needed([*always.values(), *outputs]))
         self._store(pending.rest())
         for ring in self._writes:
@@ -113,34 +113,12 @@ class _Kernel(Writer):
             self.do("record", self.value(node), value=number)
         return tuple(self.value(node) for node in finished)
 
-    def _first(self, needed: set[int], behind: set[int]) -> set[int]:
-        """Nodes that can be computed before any row that seldom changes."""
-        later: set[int] = set()
-        for j in sorted(needed):
-            if j in behind or any(a in later for a in self._arguments(j)):
-                later.add(j)
-        return needed - later
-
-    def _moving(self) -> tuple[dict[int, int], dict[int, int]]:
-        """Node that each state row becomes which does not stay as it is: single rows, and those of rings."""
-        rows = enumerate(self.program.outputs["state"])
-        ringed = {row for ring in self._writes for row in range(ring.first, ring.first + ring.depth)}
-        moving = {row: node for row, node in rows if row in ringed or self._state_row(node) != row}
-        return {r: j for r, j in moving.items() if r not in ringed}, {r: j for r, j in moving.items() if r in ringed}
-
-    def _rows_read(self, j: int) -> Collection[int]:
-        """State rows that a node reads from the workspace."""
-        if j in self._reads:
-            return range(self._reads[j].first, self._reads[j].first + self._reads[j].depth)
-        row = self._state_row(j)
-        return () if row < 0 else (row,)
-
     def written(self, j: int) -> int:
         """Register of a node, written now: what the prologue has kept is loaded."""
         if j in self._kept:
             return self._from_number(j, self.let("load", value=self._kept[j]))
-        if j in self._rows:
-            return self.let("load", value=self._rows[j])
+        if j in self._renewed:
+            return self.let("load", value=self._renewed[j])
         if j in self._reads:
             ring = self._reads[j]
             return self.let("ring_load", self.value(ring.index), value=(ring.first, ring.depth))
@@ -157,14 +135,18 @@ class _Kernel(Writer):
         draw, word = divmod(row, PER_DRAW)
         return self.let("uniform", self.leaf("draw", self.spec.streams[draw]), value=word)
 
+    def _rows_read(self, j: int) -> Collection[int]:
+        """State rows that a node reads from the workspace."""
+        if j in self._reads:
+            return range(self._reads[j].first, self._reads[j].first + self._reads[j].depth)
+        row = rings.state_row(self.program, j)
+        return () if row < 0 else (row,)
+
     def _compute(self, needed: set[int], wanted: Collection[int]) -> None:
         """Write some nodes, what is seldom needed behind a branch."""
         seldom = region(self.program, needed, self._kept, wanted)
         if seldom is not None:
-            around = [
-                *seldom.conditions,
-                *(a for j in seldom.inside for a in self._arguments(j) if a not in seldom.inside),
-            ]
+            around = {*seldom.conditions, *(a for j in seldom.inside for a in self._arguments(j))} - seldom.inside
             self._write(self._needed(around))
             self._branch(seldom, needed)
         self._write({j for j in needed if j not in self.registers and (seldom is None or j not in seldom.inside)})
@@ -196,6 +178,7 @@ class _Kernel(Writer):
         self._store(self._pending.rest())
         self.do("resume", value=number)
         self.recall(before)
+        self._renewed |= {self.program.outputs["state"][row]: row for row in update.rows}
 
     def _store(self, rows: Iterable[int]) -> None:
         """Write new state rows into the workspace."""
@@ -212,7 +195,7 @@ class _Kernel(Writer):
         left, seen = list(wanted), set[int]()
         while left:
             node = left.pop()
-            if node not in seen and node not in self.registers and node not in self._rows:
+            if node not in seen and node not in self.registers and node not in self._renewed:
                 seen.add(node)
                 left.extend(self._arguments(node))
         return seen
@@ -238,11 +221,6 @@ class _Kernel(Writer):
     def _from_number(self, node: int, register: int) -> int:
         """The reverse."""
         return self.let("ne", register, self.leaf("literal", 0.0)) if self._boolean(node) else register
-
-    def _state_row(self, node: int) -> int:
-        """Row of a state input, else -1."""
-        value = self.program.nodes[node].value
-        return value[1] if self.program.nodes[node].op == "input" and value[0] == "state" else -1
 
     def _boolean(self, node: int) -> bool:
         return OPERATIONS[self.program.nodes[node].op].result == "b"

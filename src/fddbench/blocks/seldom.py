@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fddbench.blocks.program import Program
 from fddbench.blocks.rare import worth_a_branch
 
-__all__ = ["Update", "updates"]
+__all__ = ["Update", "independent", "updates"]
 
 _ANYWAY = -1  # owner of what is needed in every sample
 
@@ -68,9 +68,21 @@ def updates(
         for row in early:
             del chosen[row]
     found = [
-        Update(q, tuple(rows[q]), frozenset(j for j in needed if owners[j] == q)) for q in sorted(rows, key=last.get)
+        Update(q, tuple(rows[q]), frozenset(j for j in needed if owners[j] == q))
+        for q in sorted(rows, key=last.__getitem__)
     ]
     return [update for update in found if worth_a_branch(program, update.inside)]
+
+
+def independent(
+    needed: Collection[int], behind: Collection[int], arguments: Callable[[int], Sequence[int]]
+) -> set[int]:
+    """Nodes that can be computed before all those `behind` a branch: they ask for none of them."""
+    later: set[int] = set()
+    for j in sorted(needed):
+        if j in behind or any(a in later for a in arguments(j)):
+            later.add(j)
+    return set(needed) - later
 
 
 def _seldom(program: Program, row: int, j: int) -> bool:
