@@ -67,7 +67,7 @@ def test_parts_and_numbers_are_addressed_by_name(why):
     assert not found
 
 
-SHIPPED = ("benchmark", "fault", "voter", "detector")
+SHIPPED = ("benchmark", "fault", "voter", "detector", "recipe")
 
 
 def test_families_without_a_shipped_member_are_parts_of_a_benchmark():

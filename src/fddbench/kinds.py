@@ -25,7 +25,9 @@ FAMILIES: Mapping[str, tuple[str, ...]] = {
     "voter": (),
     "sensor": (),
     "wind": (),
+    "law": (),
     "detector": ("Gains", "from_design"),
+    "recipe": ("spelled_out", "in_folder", "make"),
 }
 """Family → what a member must have whoever uses it; a choice of a benchmark may ask for more (`Choice.needs`)."""
 

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.linalg import expm, solve_continuous_lyapunov
 
-from fddbench.blocks.layout import Nothing
-from fddbench.flight.turbulence import SCALE_LENGTH_M, WINDS, CalmAir, GustState, LateralGust
+from fddbench.flight.turbulence import SCALE_LENGTH_M, WINDS, GustState, LateralGust
+from fddbench.flight.wind import CalmAir, Encounter
 
 times = st.floats(0.0005, 0.5)
 speeds = st.floats(80.0, 300.0)
@@ -19,14 +19,14 @@ def prepared(sample_s=0.01, v=200.0, *, sigma=1.0, scale=1.0, normals=((0.0,), (
     gust, normals = LateralGust(sigma), np.array(normals)
     n_cases = normals.shape[1]
     speeds_m_s, scale_ratio = (np.broadcast_to(np.asarray(each, float), n_cases) for each in (v, scale))
-    return gust, gust.prepare(normals, scale_ratio=scale_ratio, v_tas_m_s=speeds_m_s, sample_s=sample_s)
+    return gust, gust.prepare(normals, Encounter(scale_ratio=scale_ratio, v_tas_m_s=speeds_m_s), sample_s)
 
 
 def stepped(gust, c, state, normals):
     """State at the next sample, (2,), and the gust at this one, of one flight."""
     x = GustState(first=np.array([state[0]]), second=np.array([state[1]]))
-    after, gust_m_s = gust.step(x, c, np.array(normals)[:, None], like=np.zeros(1))
-    return np.array([after.first[0], after.second[0]]), gust_m_s[0]
+    after, air = gust.step(x, c, np.array(normals)[:, None], np.float64(0.0), like=np.zeros(1))
+    return np.array([after.first[0], after.second[0]]), air.v_m_s[0]
 
 
 def discrete(sample_s, v):
@@ -116,8 +116,9 @@ def test_sigma_scales_the_gust_and_nothing_else():
     found = []
     for sigma, scale in ((3.0, [0.0, 1.0]), (1.0, 1.0), (6.0, 0.5)):
         gust, c = prepared(sigma=sigma, scale=scale, normals=normals)
-        state, _ = gust.step(gust.start(c), c, normals, like=np.zeros(2))
-        found.append((state, gust.step(state, c, normals, like=np.zeros(2))[1]))
+        more = {"sample": np.float64(0.0), "like": np.zeros(2)}
+        state, _ = gust.step(gust.start(c), c, normals, **more)
+        found.append((state, gust.step(state, c, normals, **more)[1].v_m_s))
     assert found[0][1].tolist() == [0.0, 3.0 * found[1][1][0]]
     assert found[2][1][0] == 3.0 * found[1][1][0]
     assert found[0][0].first.tolist() == found[1][0].first.tolist()
@@ -130,11 +131,3 @@ def test_literature_intensities():
     assert isinstance(WINDS["none"], CalmAir)
     assert next(iter(WINDS)) == "none"  # what flies when nobody says
     assert pytest.approx(1750 * 0.3048) == SCALE_LENGTH_M
-
-
-def test_calm_air_costs_nothing_and_is_still():
-    calm, nothing = CalmAir(), Nothing()
-    assert [layout.size for layout in (calm.states, calm.constants, calm.draws, calm.before)] == [0, 0, 0, 0]
-    c = calm.prepare(nothing, scale_ratio=np.ones(3), v_tas_m_s=np.full(3, 200.0), sample_s=0.01)
-    after, gust_m_s = calm.step(calm.start(c), c, nothing, like=np.full(3, 7.0))
-    assert (after, gust_m_s.tolist()) == (nothing, [0.0, 0.0, 0.0])

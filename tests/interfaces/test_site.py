@@ -59,3 +59,5 @@ def test_what_a_site_need_not_say():
         (float("-inf"), float("inf")),
         (),
     )
+    assert not plain.floats
+    assert not plain.additive

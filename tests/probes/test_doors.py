@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import yaml
 
-from fddbench import testing
+from fddbench import kinds, testing
 from fddbench.benchmarks.yaw_rate import YawRate
 from fddbench.campaign.load import read_campaign
 from fddbench.errors import CampaignError
@@ -107,6 +107,36 @@ def test_sites_in_deg_and_deg_s_and_newtons_stand_side_by_side(beside):
         read_campaign(write(beside, scenarios=[{"name": "m", "manoeuvre": "hold", "faults": [mixed]}], **common))
 
 
+def test_actuators_in_deg_and_n_have_every_fault_alike_in_compiled_code(beside):
+    def broken(name, site, **fault):
+        return {"name": name, "manoeuvre": "hold", "faults": [{"sites": [site], "onset_s": 1.0, **fault}]}
+
+    scenarios = [
+        broken("half", "thruster", kind="effectiveness", loss_percent={"uniform": [5.0, 50.0]}),
+        broken("loose", "vane", kind="disconnection", lag_s={"grid": [0.05, 0.2]}),
+        broken("solid", "vane", kind="oscillatory", mode="replace", amplitude_deg=1.0, frequency_hz=2.5),
+        broken("liquid", "thruster", kind="oscillatory", amplitude_n=30.0, frequency_hz=2.5),
+        broken("runaway", "vane", kind="runaway", rate_deg_s=8.0),
+        broken("frozen", "thruster", kind="jam", mode="replace", freeze=True),
+        broken("idle", "thruster", kind="jam", mode="replace", hold_value_n=6.0),
+        broken("bias", "thruster", kind="bias", amplitude_n=-20.0),
+    ]
+    runs = {"monte_carlo": {"runs": 1}}
+    common = {"benchmark": "three_units.py:ThreeUnits", "detectors": ["watch_all"], "dispersions": runs}
+    assembly = assemble(read_campaign(write(beside, scenarios=scenarios, **common)))
+    batch, names = assembly.batch(np.arange(assembly.plan.n_cases)), ["measured:vane_deg", "measured:thrust_n"]
+    compiled, plain = (Flyer(assembly, backend).fly(batch, names).recorded for backend in ("compiled", "numpy"))
+    for name in names:
+        assert compiled[name].tobytes() == plain[name].tobytes()
+    vane_deg, thrust_n = (plain[name][:, 0] for name in names)
+    assert 50.0 < thrust_n[-1, 0] < 95.0
+    assert (vane_deg[100, 1:3] < 2.0).all()
+    assert vane_deg[110, 3] == pytest.approx(1.0)
+    assert thrust_n[[110, 130], 4] == pytest.approx([130.0, 70.0])
+    assert vane_deg[[125, -1], 5] == pytest.approx([4.0, 25.0])
+    assert thrust_n[-1, 6:].tolist() == [100.0, 6.0, 80.0]
+
+
 def test_a_benchmark_a_fault_and_a_detector_come_from_files_beside_the_campaign():
     rows, _ = rows_of(BESIDE / "own.yaml")
     assert set(rows["status"]) == {"ok"}
@@ -166,7 +196,10 @@ def test_every_fault_kind_flies_on_a_site_of_every_unit():
         "drift": {"rate": 1, "amplitude": 2},
         "nrz": {"amplitude": 1},
         "oscillatory": {"amplitude": 1, "frequency_hz": 3},
+        "effectiveness": {"loss_percent": 30},
+        "disconnection": {},
     }
+    assert set(base) == set(kinds.known("fault"))
     for unit in ("deg", "N", ""):
         for kind, sizes in base.items():
             keys = {"amplitude": {"deg": "amplitude_deg", "N": "amplitude_n", "": "amplitude"}[unit]}

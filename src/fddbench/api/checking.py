@@ -6,13 +6,13 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from fddbench.blocks import llvm
 from fddbench.campaign.check import describe, duration, estimated_seconds
 from fddbench.campaign.load import read_campaign
 from fddbench.designs.adapted import Adapted
 from fddbench.runner.assembling import assemble
 from fddbench.runner.chunks import CHUNK, COMPILED_CHUNK, OPAQUE_CHUNK
 from fddbench.runner.firsts import first_samples
+from fddbench.runner.flight import Flyer
 from fddbench.runner.load import seconds_in_python
 
 __all__ = ["described"]
@@ -32,7 +32,7 @@ def described(path: str | Path, overrides: Sequence[str] = ()) -> str:
         Every mistake in the campaign and its designs.
     """
     assembly = assemble(read_campaign(Path(path), overrides))
-    plan, compiled = assembly.plan, llvm.available()
+    plan, compiled = assembly.plan, Flyer(assembly).compiled
     each_s, together_s = (_COMPILED_S, 0.0) if compiled else (_NUMPY_S, _NUMPY_CALL_S)
     opaque = {name: own for name, own in assembly.detectors.items() if own.opaque}
     alone = any(own.one_by_one for own in opaque.values())
@@ -48,7 +48,7 @@ def described(path: str | Path, overrides: Sequence[str] = ()) -> str:
         else:
             own_s = estimated_seconds(plan, seconds_per_flight_step=0.0, overhead_s=seconds, chunk=chunk, jobs=_JOBS)
             together_s += seconds
-        notes.append(_note(name, own, seconds, own_s))
+        notes.append(_note(name, own, seconds, own_s, commands=name == assembly.commander))
     return describe(plan, seconds_per_flight_step=each_s, overhead_s=together_s, chunk=chunk, jobs=_JOBS, notes=notes)
 
 
@@ -58,9 +58,10 @@ def _timed(detector: Adapted, samples: Sequence[SimpleNamespace]) -> float:
     return seconds if np.isfinite(seconds) else 0.0
 
 
-def _note(name: str, detector: Adapted, seconds: float, total_s: float) -> str:
-    """What a detector in Python costs."""
+def _note(name: str, detector: Adapted, seconds: float, total_s: float, *, commands: bool) -> str:
+    """What a detector in Python costs; one that `commands` takes the aircraft with it."""
     how = "one flight at a time" if detector.one_by_one else "many flights side by side"
+    how += " with the aircraft that acts on it" if commands else ""
     per = "sample" if detector.one_by_one else "sample and chunk"
     return (
         f"{name} is opaque and flies in Python, {how}, {1e3 * seconds:.2g} ms a {per}: {duration(total_s)} with {_JOBS} jobs; "

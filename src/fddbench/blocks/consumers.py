@@ -9,6 +9,10 @@ __all__ = [
     "DETECTOR_0",
     "DISPERSION",
     "DISTURBANCE",
+    "DRYDEN_LATERAL",
+    "DRYDEN_LATERAL_START",
+    "DRYDEN_LONGITUDINAL",
+    "DRYDEN_LONGITUDINAL_START",
     "FAULT_NUMBERS_0",
     "FAULT_SLOTS",
     "FAULT_SLOT_0",
@@ -17,6 +21,7 @@ __all__ = [
     "MOST_SITES",
     "SENSORS_A",
     "SENSORS_B",
+    "SENSORS_C",
     "START",
     "UNCERTAINTY_0",
     "fault_number",
@@ -35,6 +40,16 @@ UNCERTAINTY_0: Final = 4
 """Uncertain dynamics of a flight, first four numbers; the next ones follow: 4..9."""
 DISTURBANCE: Final = 10
 """Disturbances of a sample, at most four."""
+SENSORS_C: Final = 11
+"""Sensor noise, four more."""
+DRYDEN_LONGITUDINAL: Final = 12
+"""Dryden turbulence of a sample in the plane of symmetry: one number of u, three of w (q follows from w)."""
+DRYDEN_LATERAL: Final = 13
+"""Dryden turbulence of a sample out of it: three numbers of v (r follows from v), one of p."""
+DRYDEN_LONGITUDINAL_START: Final = 14
+"""The same before the first sample."""
+DRYDEN_LATERAL_START: Final = 15
+"""The same before the first sample; 16 is kept for what turbulence may need besides."""
 
 FAULT_SLOT_0: Final = 64
 """First fault of a scenario, its first four sites; the next faults follow: 64..95."""

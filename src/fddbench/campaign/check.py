@@ -71,6 +71,8 @@ def _head(campaign: Campaign) -> Iterator[str]:
     yield ", ".join([f"Benchmark {campaign.benchmark}", *choices])
     substeps = f", {campaign.substeps} integration steps each" if campaign.substeps > 1 else ""
     yield f"Purpose {campaign.purpose}, seed {campaign.seed}, sample {campaign.sample_s:g} s{substeps}"
+    if campaign.reconfigure:
+        yield f"The aircraft acts on what {campaign.reconfigure} declares, from the next sample on"
 
 
 def _table(plan: Plan) -> Iterator[str]:

@@ -248,6 +248,8 @@ def _meaning(
         chosen=ground.chosen.members,
         scenarios=tuple(scenarios),
         designs=designs,
+        reconfigure=written.reconfigure or "",
+        reconfigure_where=document.where(("reconfigure",)),
         text=canonical_text(document.data),
         beside=beside,
         sha256=fingerprint(_content(written, faults.lists, designs, ground.chosen.names, beside)),
@@ -269,6 +271,8 @@ def _content(
         for number, entry in enumerate(written.scenarios)
     ]
     content["designs"] = {design.name: design.sha256 for design in designs}
+    if written.reconfigure is None:
+        del content["reconfigure"]  # a campaign means what it meant before there was this key
     if beside:
         content["files"] = {name: sha256(text).hexdigest() for name, text in sorted(beside.items())}
     return content

@@ -50,6 +50,8 @@ class Campaign:
         Length of the flights of scenarios that do not say [s].
     designs : tuple of Design
         Detectors in the order of the file.
+    reconfigure, reconfigure_where : str
+        Name of the detector on whose declarations the aircraft acts, "" for none, and where the file says so.
     text : str
         Canonical YAML of the campaign with all overrides; `read_campaign` reads it back to the same campaign.
     beside : mapping of str to bytes
@@ -74,6 +76,8 @@ class Campaign:
     scenarios: tuple[Scenario, ...]
     dispersions: Dispersions
     designs: tuple[Design, ...]
+    reconfigure: str
+    reconfigure_where: str = field(repr=False)
     text: str = field(repr=False)
     beside: Mapping[str, bytes] = field(repr=False)
     sha256: str

@@ -2,30 +2,19 @@
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from pydantic import ValidationError
 
 from fddbench import kinds
-from fddbench.campaign.reading.document import refuse
+from fddbench.campaign.reading.document import Document, refuse
 from fddbench.campaign.reading.yaml_nodes import read_yaml
 from fddbench.campaign.rules.messages import mistakes_of
-from fddbench.design.linearised import Freedom
-from fddbench.design.problem import Filter, augment, close
-from fddbench.design.proof import Proven
-from fddbench.design.recipe_entries import plant_of, spelled_out
-from fddbench.design.recipe_file import Recipe
-from fddbench.design.reference_search import optimize_fixed_poles, optimize_reference
-from fddbench.design.robust_hinf import Design, synthesize
-from fddbench.design.uncertainty import NormBounded, Uncertainty, blocks_of
-from fddbench.design.weights import Weights
-from fddbench.design.worst_case import worst_delta
+from fddbench.design.recipes.recipe import Recipe
 from fddbench.designs.design_file import DesignFile, design_text
 from fddbench.errors import DesignError
-from fddbench.systems import StateSpace, UncertainPlant
 
 __all__ = ["Cooked", "cook"]
 
@@ -45,146 +34,39 @@ def cook(path: Path) -> Cooked:
     Raises
     ------
     FddbenchError
-        The file has no recipe, mistakes in it, or the recipe gives no filter.
+        The file has no recipe, mistakes in it, or the recipe gives no design.
     """
     document = read_yaml(path)
     if not isinstance(document.data, dict) or not isinstance(document.get("recipe"), dict):
         raise DesignError(
-            f"{path} has no recipe. Add `recipe: {{plant, method, reference, window_s, confirm_s}}`; "
-            "the shipped detectors/hinf_identity.yaml is an example."
+            f"{path} has no recipe. Add `recipe:` with the keys of its kind; the shipped detectors/hinf_identity.yaml and "
+            "detectors/lpv_filter_approx.yaml are examples."
         )
-    if document.get("kind") != "hinf_filter":
-        raise DesignError(f"{path} is a design of kind {document.get('kind')!r}; recipes make hinf_filter designs")
-    mistakes, written, recipe = [], None, None
+    recipe = _recipe(path, document)
+    made = recipe.in_folder(path.parent).make()
+    data = {key: document.data[key] for key in ("kind", "about", "source") if key in document.data}
+    written = {**document.data["recipe"], "found": dict(made.found)}
+    data |= {"tuned_on": None, "recipe": written, "gains": dict(made.gains)}
+    return Cooked(design_text(data), made.found, recipe.found)
+
+
+def _recipe(path: Path, document: Document) -> Recipe:
+    """The recipe as its kind reads it, with every mistake of the file told."""
+    kind = document.get("kind")
+    if kind not in kinds.known("recipe"):
+        raise DesignError(
+            f"{path} is a design of kind {kind!r}; recipes make designs of the kinds {', '.join(kinds.known('recipe'))}"
+        )
+    model = kinds.load("recipe", kind)
+    mistakes, recipe = [], None
     try:
-        written = DesignFile.model_validate_json(json.dumps(document.data), strict=True)
+        DesignFile.model_validate_json(json.dumps(document.data), strict=True)
     except ValidationError as error:
         mistakes += mistakes_of(error, document, model=DesignFile)
     try:
-        recipe = Recipe.model_validate_json(json.dumps(spelled_out(document.mapping("recipe"))), strict=True)
+        recipe = model.model_validate_json(json.dumps(model.spelled_out(document.mapping("recipe"))), strict=True)
     except ValidationError as error:
-        mistakes += mistakes_of(error, document, model=Recipe, at=("recipe",))
+        mistakes += mistakes_of(error, document, model=model, at=("recipe",))
     refuse(mistakes)
-    assert written is not None
-    assert recipe is not None
-    filter_, found = _made(recipe)
-    data = {key: document.data[key] for key in ("kind", "about", "source") if key in document.data}
-    data |= {"tuned_on": None, "recipe": {**document.data["recipe"], "found": found}, "gains": _gains(filter_, recipe)}
-    return Cooked(design_text(data), found, recipe.found)
-
-
-def _made(recipe: Recipe) -> tuple[Filter, dict[str, Any]]:
-    """Filter of a recipe and what is known of it."""
-    recipe.require_keys()
-    plant = _plant(recipe.plant)
-    if recipe.method == "exact_inverse":
-        filter_ = _exact_inverse(plant)
-        identity = StateSpace.gain(np.eye(plant.inputs[0]))
-        worst = worst_delta(close(augment(plant, identity), identity, filter_), blocks_of(NormBounded(), plant))
-        return filter_, {"worst_norm_sampled": _short(worst.norm)}
-    task = _Task(
-        uncertainty=recipe.uncertainty.uncertainty(plant) if recipe.uncertainty else NormBounded(),
-        weights=recipe.weights.weights(plant) if recipe.weights else Weights(),
-        options={"solver": recipe.solver, "relax": recipe.relax},
-    )
-    if recipe.method == "fixed_poles":
-        design = optimize_fixed_poles(plant, recipe.fixed_poles or (), task.uncertainty, task.weights, **task.options)
-        return _flown(design).filter, _findings(design) | _found_reference(design)
-    reference = recipe.reference.system() if recipe.reference else StateSpace.gain(np.eye(plant.inputs[0]))
-    if recipe.method == "fixed_reference":
-        design = synthesize(plant, reference, task.uncertainty, task.weights, **task.options)
-        return _flown(design).filter, _findings(design)
-    freedom = Freedom.triangular(reference)
-    search = optimize_reference(plant, reference, task.uncertainty, task.weights, freedom=freedom, **task.options)
-    steps = {"gamma_by_iteration": [_short(step.gamma) for step in search.iterations]}
-    return _flown(search.design).filter, _findings(search.design) | _found_reference(search.design) | steps
-
-
-@dataclass(frozen=True)
-class _Task:
-    """What all methods but the inverse are told."""
-
-    uncertainty: Uncertainty
-    weights: Weights
-    options: Mapping[str, Any]
-
-
-def _found_reference(design: Design) -> dict[str, Any]:
-    """The reference that was chosen."""
-    R = design.reference
-    names = "ABCD" if R.order else "D"
-    return {"reference": {name: [[_short(x) for x in row] for row in getattr(R, name).tolist()] for name in names}}
-
-
-def _flown(design: Design) -> Proven:
-    """The filter of the second step, else the optimum."""
-    return design.moderate or design
-
-
-def _findings(design: Design) -> dict[str, Any]:
-    """γ of the filter that flies with its certificate, and how far it is from the best."""
-    flown = _flown(design)
-    proof = flown.certificate.require()
-    return {
-        "gamma": _short(flown.gamma),
-        "gamma_optimum": _short(design.gamma),
-        "gamma_lower_bound": _short(design.lower_bound),
-        "certificate": {
-            "smallest_Pc": _short(proof.smallest_Pc),
-            "largest_robust": _short(proof.largest_robust),
-            "largest_sampled": _short(proof.largest_sampled),
-        },
-    }
-
-
-def _short(value: float) -> float:
-    """Six digits: what solvers agree on."""
-    return float(f"{value:.6g}")
-
-
-def _plant(given: str | Mapping[str, Any]) -> UncertainPlant:
-    if not isinstance(given, str):
-        return plant_of(given, "recipe.plant")
-    matrices = getattr(kinds.load("benchmark", given), "matrices", None)
-    if matrices is None:
-        raise DesignError(f"benchmark {given!r} offers no matrices to design for; give them under recipe.plant")
-    return UncertainPlant(**matrices)
-
-
-def _exact_inverse(plant: UncertainPlant) -> Filter:
-    """Observer driven by its own residual ``r = Df⁻¹ (y - C x̂ - D u)``: the faults themselves, if plant and model agree."""
-    if plant.Df.shape[0] != plant.Df.shape[1] or np.linalg.matrix_rank(plant.Df) < len(plant.Df):
-        raise DesignError(f"an exact inverse needs a regular square Df, this one is {plant.Df.shape}")
-    back = np.asarray(np.linalg.inv(plant.Df), dtype=np.float64)
-    return Filter(
-        Ak=plant.A - plant.Bf @ back @ plant.C, Bky=plant.Bf @ back, Bku=plant.B - plant.Bf @ back @ plant.D,
-        Ck=-back @ plant.C, Dky=back, Dku=-back @ plant.D,
-    )  # fmt: skip
-
-
-def _gains(filter_: Filter, recipe: Recipe) -> dict[str, Any]:
-    """Gains of a `hinf_filter` with thresholds that nobody has tuned yet."""
-    if not len(filter_.Ak):
-        filter_ = _with_a_state(filter_)
-    names = {"A": "Ak", "B_y": "Bky", "B_u": "Bku", "C": "Ck", "D_y": "Dky", "D_u": "Dku"}
-    gains: dict[str, Any] = {name: getattr(filter_, own).tolist() for name, own in names.items()}
-    gains |= {"window_s": recipe.window_s, "confirm_s": recipe.confirm_s, "thresholds": [1.0] * len(filter_.Ck)}
-    return gains | ({"estimates_faults": True} if _speaks_plainly(recipe) else {})
-
-
-def _with_a_state(filter_: Filter) -> Filter:
-    """A static filter with a state that nothing moves and nobody sees: a file cannot say matrices without rows."""
-    n_r, n_y, n_u = len(filter_.Dky), filter_.Dky.shape[1], filter_.Dku.shape[1]
-    idle = {"Ak": -np.eye(1), "Bky": np.zeros((1, n_y)), "Bku": np.zeros((1, n_u)), "Ck": np.zeros((n_r, 1))}
-    return replace(filter_, **idle)
-
-
-def _speaks_plainly(recipe: Recipe) -> bool:
-    """Whether residual i is made to be fault i itself: an inverse, or a reference that is the identity."""
-    if recipe.method == "exact_inverse":
-        return True
-    reference = recipe.reference.system() if recipe.reference else None
-    identity = reference is None or (
-        not reference.order and bool(np.array_equal(reference.D, np.eye(len(reference.D))))
-    )
-    return identity and recipe.method == "fixed_reference"
+    assert isinstance(recipe, Recipe)
+    return recipe

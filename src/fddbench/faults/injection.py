@@ -131,12 +131,23 @@ class SignalFaults:
         return SignalFaultsState(before=0.0 if self.freezes else Nothing(), slots=slots)
 
     def step(
-        self, x: SignalFaultsState, c: tuple[SlotConstants, ...], n: Any, healthy: Rows, sample: Row
+        self,
+        x: SignalFaultsState,
+        c: tuple[SlotConstants, ...],
+        n: Any,
+        healthy: Rows,
+        sample: Row,
+        *,
+        free: Rows = None,
     ) -> tuple[SignalFaultsState, Rows]:
-        """State at the next sample, and the faulty signal, (n_sites, n_cases), of the healthy one; `sample` is its number."""
+        """State at the next sample, and the faulty signal, (n_sites, n_cases), of the healthy one; `sample` is its number.
+
+        `free`, (n_sites, n_cases), is what the sites would show if they floated: a loop hands it over where one of its sites
+        says `floats`, and anything finite on the rows of those that do not.
+        """
         signal, kept = healthy, []
         for slot, own, constants, numbers in zip(self.slots, x.slots, c, n, strict=True):
-            after, signal = slot.step(own, constants, numbers, signal, x.before, sample)
+            after, signal = slot.step(own, constants, numbers, signal, x.before, sample, free)
             kept.append(after)
         signal = self._within_stops(signal)
         return SignalFaultsState(before=signal if self.freezes else Nothing(), slots=tuple(kept)), signal

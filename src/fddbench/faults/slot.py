@@ -93,11 +93,12 @@ class Slot:
         )
 
     def step(
-        self, x: SlotState, c: SlotConstants, n: Any, signal: Rows, before: Rows, sample: Row
+        self, x: SlotState, c: SlotConstants, n: Any, signal: Rows, before: Rows, sample: Row, free: Rows = None
     ) -> tuple[SlotState, Rows]:
         """State at the next sample, and the signal with this fault, (n_sites, n_cases).
 
         `before` is what the sites showed at the sample before, with all faults; used only where something freezes.
+        `free` is what they would show if they floated; only kinds that come loose need it.
         """
         since = sample - c.first
         active = (since >= 0.0) & (sample <= c.last)
@@ -107,6 +108,7 @@ class Slot:
             active=active,
             sign=c.sign,
             random=np.where(c.independent > 0.0, np.stack(n.own), n.common) if self.random else None,
+            free=free,
         )
         frozen = self._frozen(x, signal, before, since, sample)
         stands = np.where(c.freezes > 0.0, frozen, c.held) if self.freezes else c.held

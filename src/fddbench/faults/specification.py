@@ -143,6 +143,11 @@ class FaultSpecification(BaseModel):
             unsaid = "" if key in self.model_fields_set else f". It is the default of {self.kind}; say what you mean"
             yield from ((key, f"{key} {wrong}{unsaid}") for wrong in misfits(getattr(self, key), sample_s, least=1))
 
+    def unfit_on(self, site: Site) -> str:
+        """Why it cannot act on a site, in words that follow its name; "": it can. A kind may add its own."""
+        del site
+        return ""
+
     @classmethod
     def key(cls, name: str) -> str:
         """Key of a field as a campaign writes it."""

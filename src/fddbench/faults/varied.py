@@ -103,14 +103,15 @@ class Number:
 
     Attributes
     ----------
-    ge, gt : float or None
-        Smallest number, or the number that it must exceed.
+    ge, gt, le : float or None
+        Smallest number, or the number that it must exceed; largest number.
     time : bool
         A time: on the clock, so only ``uniform`` and ``grid`` can vary it.
     """
 
     ge: float | None = None
     gt: float | None = None
+    le: float | None = None
     time: bool = False
 
     def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> core_schema.CoreSchema:
@@ -118,7 +119,7 @@ class Number:
         del source, handler
         return core_schema.no_info_wrap_validator_function(
             self._read,
-            core_schema.float_schema(ge=self.ge, gt=self.gt, allow_inf_nan=False),
+            core_schema.float_schema(ge=self.ge, gt=self.gt, le=self.le, allow_inf_nan=False),
             serialization=core_schema.plain_serializer_function_ser_schema(_plain),
         )
 
@@ -135,13 +136,14 @@ class Number:
             raise ValueError(
                 f"{value.name} cannot draw a time: it must be bounded; use uniform: [a, b] or grid: [a, b]"
             )
-        low = value.bounds[0]
-        limits = {
-            f">= {self.ge}": self.ge is not None and low < self.ge,
-            f"> {self.gt}": self.gt is not None and low <= self.gt,
-        }
-        for limit in (text for text, missed in limits.items() if missed):
-            found = "a bell curve draws any number; use uniform or log_uniform" if value.normal else f"got {low:g}"
+        low, high = value.bounds
+        limits = (
+            (f">= {self.ge}", low, self.ge is not None and low < self.ge),
+            (f"> {self.gt}", low, self.gt is not None and low <= self.gt),
+            (f"<= {self.le}", high, self.le is not None and high > self.le),
+        )
+        for limit, end in ((text, end) for text, end, missed in limits if missed):
+            found = "a bell curve draws any number; use uniform or log_uniform" if value.normal else f"got {end:g}"
             raise ValueError(f"{value.name} must stay {limit}, {found}")
         return value
 

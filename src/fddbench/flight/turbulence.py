@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 
 from fddbench.blocks import consumers
-from fddbench.blocks.block import NO_DRAWS, NOTHING
 from fddbench.blocks.drawn import Draw, Draws
 from fddbench.blocks.functions import exp
-from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, record
+from fddbench.blocks.layout import ROW, Layout, Row, Rows, record
+from fddbench.flight.wind import AirMotion, CalmAir, Encounter, Wind, still
 
-__all__ = ["SCALE_LENGTH_M", "WINDS", "CalmAir", "Gust", "GustConstants", "GustState", "LateralGust"]
+__all__ = ["SCALE_LENGTH_M", "WINDS", "GustConstants", "GustState", "LateralGust"]
 
 SCALE_LENGTH_M = 533.4
 _ROOT3 = float(np.sqrt(3.0))
@@ -46,7 +46,9 @@ class GustConstants:
 
 
 class LateralGust:
-    """Dryden's lateral gust as a block whose output is the gust [m/s], positive to the right.
+    """Dryden's lateral gust alone, positive to the right, see `fddbench.flight.wind.Wind`.
+
+    It has numbers of its own: `fddbench.flight.dryden` flies another v_g.
 
     Parameters
     ----------
@@ -67,7 +69,7 @@ class LateralGust:
     def __init__(self, sigma_m_s: float) -> None:
         self.sigma_m_s = sigma_m_s
 
-    def prepare(self, normals: Rows, *, scale_ratio: Row, v_tas_m_s: Row, sample_s: float) -> GustConstants:
+    def prepare(self, normals: Rows, meets: Encounter, sample_s: float) -> GustConstants:
         """Constants of flights; the start is stationary.
 
         The process noise is ``P - F P F'`` with the stationary covariance P, so the variance is sigma^2 at every sample.
@@ -76,10 +78,11 @@ class LateralGust:
         ----------
         normals : (2, n_cases) rows
             As `before` names them.
-        scale_ratio, v_tas_m_s : (n_cases,) rows
-            Share of sigma [-], and true airspeed [m/s].
+        meets : Encounter
+            Of which share and airspeed count.
         """
-        a = sample_s * v_tas_m_s / SCALE_LENGTH_M
+        meets = meets.spread()
+        a = sample_s * meets.v_tas_m_s / SCALE_LENGTH_M
         e = exp(-a)
         f = a * e
         q11 = _P11 - e * e * _P11
@@ -90,20 +93,20 @@ class LateralGust:
         n22 = np.sqrt(np.maximum(q22 - n21 * n21, 0.0))
         return GustConstants(
             decay_ratio=e, coupling_ratio=f, noise_11=n11, noise_21=n21, noise_22=n22,
-            sigma_m_s=self.sigma_m_s * scale_ratio, start=_stationary(normals),
+            sigma_m_s=self.sigma_m_s * meets.scale_ratio, start=_stationary(normals),
         )  # fmt: skip
 
     def start(self, c: GustConstants) -> GustState:
         """Stationary."""
         return c.start
 
-    def step(self, x: GustState, c: GustConstants, n: Rows, like: Row) -> tuple[GustState, Row]:
-        """State at the next sample, and the gust at this one [m/s], (n_cases,)."""
-        del like
+    def step(self, x: GustState, c: GustConstants, n: Rows, sample: Row, like: Row) -> tuple[GustState, AirMotion]:
+        """State at the next sample, and the motion of the air at this one."""
+        del sample
         first = c.decay_ratio * x.first + c.noise_11 * n[0]
         second = c.coupling_ratio * x.first + c.decay_ratio * x.second + c.noise_21 * n[0] + c.noise_22 * n[1]
         gust_m_s = c.sigma_m_s * (_ROOT3 * x.first + (1.0 - _ROOT3) * x.second)
-        return GustState(first=first, second=second), gust_m_s
+        return GustState(first=first, second=second), still(like, v_m_s=gust_m_s)
 
 
 def _stationary(normals: Rows) -> GustState:
@@ -114,32 +117,7 @@ def _stationary(normals: Rows) -> GustState:
     return GustState(first=n11 * normals[0], second=second)
 
 
-class CalmAir:
-    """No gust: a block without states, constants and draws."""
-
-    states: Layout[Any] = NOTHING
-    constants: Layout[Any] = NOTHING
-    draws: Draws[Any] = NO_DRAWS
-    before: Draws[Any] = NO_DRAWS
-
-    def prepare(self, normals: Nothing, *, scale_ratio: Row, v_tas_m_s: Row, sample_s: float) -> Nothing:
-        """No constants."""
-        del scale_ratio, v_tas_m_s, sample_s
-        return normals
-
-    def start(self, c: Nothing) -> Nothing:
-        """No state."""
-        return c
-
-    def step(self, x: Nothing, c: Nothing, n: Nothing, like: Row) -> tuple[Nothing, Row]:
-        """No gust; `like` says of what shape, which a block without states cannot know."""
-        del c, n
-        return x, np.zeros_like(like)
-
-
-Gust = LateralGust | CalmAir
-
-WINDS: dict[str, Gust] = {
+WINDS: dict[str, Wind] = {
     "none": CalmAir(),
     "light": LateralGust(1.5),
     "moderate": LateralGust(3.0),

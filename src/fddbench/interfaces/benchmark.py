@@ -93,7 +93,9 @@ class Benchmark(Protocol):
 
     For the report it may have more, and has these otherwise: ``envelope_axes``, pairs of parameters that belong on the two
     axes of a picture (none); ``published``, the printed table that stands beside its results unless a campaign names another,
-    and ``iterations``, the printed course of an optimisation: files of ``reports/published`` by their names ("": none).
+    and ``iterations``, the printed course of an optimisation: files of ``reports/published`` by their names ("": none); a
+    method ``derived(chosen, parameters)``, more numbers of flights by name with unit, (n_cases,) arrays (a trim, say), of the
+    chosen options by key and of the parameters of flights, (n_cases,) arrays by name (none).
     """
 
     name: str

@@ -26,6 +26,8 @@ class Instant:
     random : rows or None
         A standard normal number a site, the same on all sites unless the fault is independent; None unless the kind is
         `random`.
+    free : rows or None
+        What the sites would show if they floated, in their unit; None where the loop has no site that floats.
     """
 
     since_samples: Rows
@@ -33,6 +35,7 @@ class Instant:
     active: Rows
     sign: Rows
     random: Rows
+    free: Rows = None
 
 
 class FaultBlock(Protocol):

@@ -107,6 +107,13 @@ class Loop(Protocol):
         What is random before the first sample, handed to `prepare` by name.
     truth : tuple of str
         Names of what `Sample.truth` has.
+
+    **Reconfiguration.** A loop with ``reconfigures = True`` can act on what a detector declares: its step takes a keyword
+    ``declared=None`` besides. Where a campaign says ``reconfigure: NAME``, it is called with (n_sites, n_cases) rows in the
+    order of the bus: 1 where that detector declared a site at the sample before, else 0; all 0 at sample 0, and always 0 at
+    sites that it does not watch. Everywhere else the step is called without. A loop does not remember declarations of its own
+    accord: a detector that takes one back ends what the loop does about it, unless the loop latches it in its states. Rows of
+    zeros give the flight that None gives, bit for bit.
     """
 
     bus: Bus

@@ -28,6 +28,11 @@ class Site:
         What it is.
     stops : (low, high)
         What it cannot pass, in that unit, faulty or not; infinite for none.
+    floats : bool
+        Whether it can come loose and float (a surface on its hinge); its loop says where to, as `free` of
+        `fddbench.faults.injection.SignalFaults.step`.
+    additive : bool
+        Whether its signal is only what faults add, zero while it is healthy, so that there is nothing to lose.
     limits_s : sequence of float
         Detection time limit [s] when one, two, … sites of this signal are faulty; the last holds for more. Empty: a scenario
         must state its own.
@@ -40,6 +45,8 @@ class Site:
     row: int = 0
     kind: Literal["sensor", "actuator", "component"] = "sensor"
     stops: tuple[float, float] = (float("-inf"), float("inf"))
+    floats: bool = False
+    additive: bool = False
     limits_s: Sequence[float] = field(default=())
 
     @property

@@ -28,7 +28,7 @@ class ReportData:
     ----------
     campaign : mapping
         Effective content of the campaign: name, about, seed, benchmark, what was chosen, purpose, sample_s, scenarios,
-        detectors.
+        detectors, and reconfigure where the aircraft acts on one of them.
     rows, events : DataFrame
         Tables as ``fddbench.load`` gives them.
     provenance : mapping of str to str
@@ -124,7 +124,7 @@ def _content(report: ReportData) -> dict[str, Any]:
 
 
 def _settings(campaign: Mapping[str, Any], choices: Sequence[str]) -> dict[str, Any]:
-    names = ("benchmark", *choices, "purpose", "seed", "sample_s")
+    names = ("benchmark", *choices, "reconfigure", "purpose", "seed", "sample_s")
     return {name: campaign[name] for name in names if campaign.get(name) not in (None, "")}
 
 

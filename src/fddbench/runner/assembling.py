@@ -12,6 +12,7 @@ from fddbench.metrics.scoring import Scoring
 from fddbench.plugin_files import noticed_reads
 from fddbench.runner.assembly import Assembly
 from fddbench.runner.firsts import first_samples
+from fddbench.runner.reconfiguration import require_able, require_commander
 from fddbench.runner.soundness import require_sound
 
 __all__ = ["assemble", "loop_of"]
@@ -62,10 +63,11 @@ def assemble(campaign: Campaign) -> Assembly:
     Raises
     ------
     CampaignError
-        A design does not make a detector for this benchmark.
+        A design does not make a detector for this benchmark, or the aircraft cannot act on the one it shall act on.
     """
     planned = plan(campaign)
     loop = loop_of(planned)
+    require_able(campaign, loop)
     n_faults = max((len(scenario.faults) for scenario in planned.scenarios), default=0)
     scoring = Scoring(loop.bus.names, n_faults, campaign.sample_s)
     assembly = Assembly(plan=planned, loop=loop, detectors={}, scoring=scoring)
@@ -73,4 +75,5 @@ def assemble(campaign: Campaign) -> Assembly:
     if any(map(_foreign, (campaign.bench, campaign.plant, loop, *campaign.chosen.values(), *faults))):
         require_sound(assembly)
     found = build_detectors(campaign.designs, loop.bus, lambda: first_samples(assembly))
+    require_commander(campaign, found)
     return replace(assembly, detectors=found)

@@ -107,6 +107,11 @@ class Assembly:
     scoring: Scoring
 
     @property
+    def commander(self) -> str:
+        """Detector on whose declarations the aircraft acts; "" for none."""
+        return self.plan.campaign.reconfigure
+
+    @property
     def scoring_of(self) -> Mapping[str, Scoring]:
         """Score of each detector: by its sites or its alarm, with its estimate if it has one."""
         return {

@@ -11,6 +11,7 @@ from fddbench.designs.adapted import Adapted
 from fddbench.interfaces import NEVER, Floats, Sample, Verdict
 from fddbench.runner.assembly import Assembly, Batch
 from fddbench.runner.fused import shown
+from fddbench.runner.reconfiguration import acted_on, nothing_declared, without_commander
 from fddbench.runner.verdicts import verdicts_of
 
 __all__ = ["DetectorFlight", "feed_eagerly", "flown_only", "fly_eagerly"]
@@ -41,6 +42,11 @@ class DetectorFlight:
     hear : bool
         Whether every verdict is kept in `heard`, (n, n_cases) rows called `names` a sample; not-a-number where a flight has
         raised.
+
+    Attributes
+    ----------
+    declared : (n_sites, n_cases) array
+        Where the aircraft acts on it, the sites that it declared at the last sample, 0 or 1; none where it has raised.
     """
 
     def __init__(
@@ -61,7 +67,10 @@ class DetectorFlight:
         self.verdicts = verdicts_of(self.detector, n_cases)
         self.hear, self.heard = hear, list[Floats]()
         self.names = _names(self.detector)
-        self.last_word = self.detector.one_by_one or (n_cases == 1 and alone)
+        # one that commands is never flown again without the others, who have seen what it made of their flight
+        self.commands = name == assembly.commander
+        self.last_word = self.detector.one_by_one or self.commands or (n_cases == 1 and alone)
+        self.declared = nothing_declared(assembly, n_cases)
 
     @property
     def over(self) -> bool:
@@ -74,6 +83,8 @@ class DetectorFlight:
         if self.over or not active.any():
             return
         verdict = self.verdicts.step(self._drawn(int(sample)), seen.measured, active)
+        if self.commands:
+            self.declared = np.zeros_like(self.declared) if verdict is None else acted_on(verdict)
         if verdict is not None:
             self._score(verdict, self.scoring.actual(seen), sample, departed)
 
@@ -144,6 +155,8 @@ def fly_eagerly(
         scores[flight.name], errors[flight.name] = flight.finish()
     for flight in flights:
         tape |= flight.tape()
+    if assembly.commander in errors:
+        errors = without_commander(assembly.commander, errors)
     return scores, departed, errors, flown_only(assembly, batch, departed, tape)
 
 
@@ -165,9 +178,11 @@ def feed_eagerly(
 ) -> tuple[Floats, dict[str, Floats]]:
     """Fly the loop and show it to detectors; departures, and recordings of the loop.
 
-    With `until_over` it stops when all detectors have raised; then not every departure is known.
+    Where the aircraft acts on a detector that is not among them, that one is flown besides. With `until_over` it stops when
+    all detectors have raised; then not every departure is known.
     """
     loop = assembly.loop
+    flown, commander = _with_commander(assembly, batch, flights)
     state, constants = loop.states.unpack(batch.state), loop.constants.unpack(batch.constants)
     departed = np.full(len(batch.cases), NEVER)
     kept: dict[str, list[Floats]] = {
@@ -178,15 +193,30 @@ def feed_eagerly(
         for first in range(0, last + 1, _TILE):
             for j, drawn in enumerate(assembly.normals(loop.draws, batch, first, min(_TILE, last + 1 - first))):
                 sample = float(first + j)
-                state, seen = loop.step(state, constants, loop.draws.unpack(drawn), np.float64(sample))
+                more = {} if commander is None else {"declared": commander.declared}
+                state, seen = loop.step(state, constants, loop.draws.unpack(drawn), np.float64(sample), **more)
                 departed = np.where(seen.departed, np.minimum(departed, sample), departed)
                 _protect(seen.measured)
-                for flight in flights:
+                for flight in flown:
                     flight.step(seen, sample, departed)
                 _keep(kept, seen, departed)
                 if until_over and all(flight.over for flight in flights):
                     return departed, {}
     return departed, {full: np.array(rows) for full, rows in kept.items()}
+
+
+def _with_commander(
+    assembly: Assembly, batch: Batch, flights: Sequence[DetectorFlight]
+) -> tuple[Sequence[DetectorFlight], DetectorFlight | None]:
+    """All flights of detectors there must be, and that of the one on which the aircraft acts; None where it acts on none."""
+    name = assembly.commander
+    if not name:
+        return flights, None
+    own = next((flight for flight in flights if flight.name == name), None)
+    if own is not None:
+        return flights, own
+    besides = DetectorFlight(assembly, name, batch)
+    return (*flights, besides), besides
 
 
 def _protect(measured: SimpleNamespace) -> None:

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from fddbench.runner.assembly import Assembly, Batch
+from fddbench.runner.reconfiguration import nothing_declared, told
 
 __all__ = ["FIRST", "first_flights", "first_samples"]
 
@@ -30,14 +31,15 @@ def first_flights(assembly: Assembly, most: int = FIRST) -> Batch | None:
 
 
 def first_samples(assembly: Assembly, count: int = _SAMPLES, most: int = FIRST) -> Sequence[SimpleNamespace]:
-    """What is measured at the first samples of the first flights; empty where none can be flown."""
+    """What is measured at the first samples of the first flights, nothing declared; empty where none can be flown."""
     batch, shown = first_flights(assembly, most), []
     if batch is None:
         return ()
     loop = assembly.loop
     state, constants = loop.states.unpack(batch.state), loop.constants.unpack(batch.constants)
+    more = told(assembly, nothing_declared(assembly, len(batch.cases)))
     with np.errstate(all="ignore"):
         for sample, drawn in enumerate(assembly.normals(loop.draws, batch, 0, count)):
-            state, seen = loop.step(state, constants, loop.draws.unpack(drawn), np.float64(sample))
+            state, seen = loop.step(state, constants, loop.draws.unpack(drawn), np.float64(sample), **more)
             shown.append(seen.measured)
     return shown

@@ -9,12 +9,13 @@ import numpy as np
 
 from fddbench.blocks import kernel, llvm
 from fddbench.blocks.flown import Flown
-from fddbench.interfaces import Floats, Sample
+from fddbench.interfaces import NEVER, Floats, Sample
 from fddbench.metrics.scoring import Scoring
 from fddbench.runner.assembly import Assembly, Batch
 from fddbench.runner.eager import DetectorFlight, feed_eagerly, flown_only, fly_eagerly
 from fddbench.runner.fused import Fused
 from fddbench.runner.given_up import GivenUp
+from fddbench.runner.reconfiguration import without_commander
 
 __all__ = ["Flyer", "Outcome"]
 
@@ -58,7 +59,8 @@ class Flyer:
     assembly : Assembly
         What flies.
     backend : {"auto", "llvm", "numpy"}
-        ``auto`` compiles where llvmlite is installed.
+        ``auto`` compiles where llvmlite is installed. Where the aircraft acts on a detector that cannot be compiled, all fly
+        in Python, whatever this says.
     given_up : mapping of str to GivenUp
         Detectors that are not flown any more.
     """
@@ -67,7 +69,12 @@ class Flyer:
         self, assembly: Assembly, backend: str = "auto", given_up: Mapping[str, GivenUp] | None = None
     ) -> None:
         self.assembly, self.backend, self.given_up = assembly, backend, given_up or {}
-        self.compiled = backend == "llvm" or (backend == "auto" and llvm.available())
+        self.compiled = (backend == "llvm" or (backend == "auto" and llvm.available())) and not self._acts_on_python()
+
+    def _acts_on_python(self) -> bool:
+        """Whether the aircraft acts on a detector that cannot be compiled: then all fly in Python, sample by sample."""
+        own = self.assembly.detectors.get(self.assembly.commander)
+        return own is not None and bool(own.opaque)
 
     @cached_property
     def opaque(self) -> dict[str, str]:
@@ -95,6 +102,8 @@ class Flyer:
 
     def fly(self, batch: Batch, recorded: Sequence[str] = ()) -> Outcome:
         """Fly all cases of a batch, each to its own end."""
+        if self.assembly.commander in self.given_up:
+            return self._unflown(batch)
         if self.compiled:
             outcome = self._fly_compiled(batch, tuple(recorded))
         else:
@@ -105,6 +114,15 @@ class Flyer:
             outcome.scores[name] = self.assembly.nothing_scored(batch, self.assembly.scoring_of[name])
             outcome.errors[name] = [given.reason(case) for case in batch.cases.tolist()]
         return outcome
+
+    def _unflown(self, batch: Batch) -> Outcome:
+        """Nothing but the reason: the detector on which the aircraft acts is given up."""
+        assembly, name, n_cases = self.assembly, self.assembly.commander, len(batch.cases)
+        errors: dict[str, list[str]] = {other: [""] * n_cases for other in assembly.detectors}
+        errors[name] = [self.given_up[name].reason(case) for case in batch.cases.tolist()]
+        scores = {other: assembly.nothing_scored(batch, own) for other, own in assembly.scoring_of.items()}
+        departed = np.full(n_cases, NEVER)
+        return Outcome(batch=batch, scores=scores, departed=departed, errors=without_commander(name, errors))
 
     def feed(self, batch: Batch, flights: Sequence[DetectorFlight]) -> None:
         """Fly a batch and show it to these flights of detectors, until all of them have raised."""

@@ -14,6 +14,7 @@ from fddbench.interfaces import NEVER, Floats, Loop, Sample, Verdict
 from fddbench.metrics.score import ScoreConstants, ScoreState
 from fddbench.metrics.scoring import Scoring
 from fddbench.runner.assembly import Assembly, Batch
+from fddbench.runner.reconfiguration import acted_on
 
 __all__ = ["Fused", "shown"]
 
@@ -25,12 +26,16 @@ def shown(verdict: Verdict, number: Row) -> dict[str, Row]:
 
 @record
 class FusedState:
-    """States of the loop, of every detector and of its score; sample at which the flight departed, `NEVER` if it did not."""
+    """States of the loop, of every detector and of its score; sample at which the flight departed, `NEVER` if it did not.
+
+    `declared` has the rows of sites on which the loop acts at the next sample; `Nothing` where it acts on nobody.
+    """
 
     loop: Part
     departed: Row
     detectors: tuple[Part, ...]
     scores: tuple[ScoreState, ...]
+    declared: Part
 
 
 @record
@@ -72,12 +77,21 @@ class Fused:
         Score of each of them, all with the same constants.
     nobody : Scoring
         Those constants, where there is no detector.
+    commander : str
+        That of them on whose declarations the loop acts; "" for none.
     """
 
     def __init__(
-        self, loop: Loop, detectors: Mapping[str, Adapted], scoring: Mapping[str, Scoring], nobody: Scoring
+        self,
+        loop: Loop,
+        detectors: Mapping[str, Adapted],
+        scoring: Mapping[str, Scoring],
+        nobody: Scoring,
+        commander: str = "",
     ) -> None:
         self.loop, self.detectors, self.nobody = loop, dict(detectors), nobody
+        self.commander = list(self.detectors).index(commander) if commander else None
+        declared: Part = len(loop.bus.sites) if commander else Nothing()
         own, self.scoring = tuple(self.detectors.values()), tuple(scoring[name] for name in detectors)
         self.states = Layout(
             FusedState(
@@ -85,6 +99,7 @@ class Fused:
                 departed=ROW,
                 detectors=tuple(detector.states.shape for detector in own),
                 scores=tuple(score.states.shape for score in self.scoring),
+                declared=declared,
             )
         )
         self.constants = Layout(FusedConstants(loop=loop.constants.shape, score=nobody.constants.shape))
@@ -95,7 +110,8 @@ class Fused:
     def of(cls, assembly: Assembly, detectors: tuple[str, ...]) -> "Fused":
         """Everything of an assembly, with some of its detectors."""
         own = {name: assembly.detectors[name] for name in detectors}
-        return cls(assembly.loop, own, assembly.scoring_of, assembly.scoring)
+        commander = assembly.commander if assembly.commander in own else ""
+        return cls(assembly.loop, own, assembly.scoring_of, assembly.scoring, commander)
 
     def packed(self, batch: Batch) -> tuple[Floats, Floats]:
         """State before sample 0 and constants of a batch, (n_rows, n_cases) each."""
@@ -116,36 +132,52 @@ class Fused:
             departed=NEVER,
             detectors=tuple(detector.start(Nothing()) for detector in self.detectors.values()),
             scores=tuple(scoring.start(c.score) for scoring in self.scoring),
+            declared=Nothing() if self.commander is None else 0.0,
         )
 
     def step(self, x: FusedState, c: FusedConstants, n: FusedDraws, sample: Row) -> tuple[FusedState, Flown]:
         """One sample of everything."""
-        loop, seen = self.loop.step(x.loop, c.loop, n.loop, sample)
+        told = {} if self.commander is None else {"declared": x.declared}
+        loop, seen = self.loop.step(x.loop, c.loop, n.loop, sample, **told)
         departed = np.where(seen.departed, np.minimum(x.departed, sample), x.departed)
         kept, scores, verdicts, numbers = [], [], [], []
         parts = zip(self.detectors.values(), x.detectors, n.detectors, self.scoring, x.scores, strict=True)
         for detector, state, numbers_drawn, scoring, score in parts:
-            after, verdict = detector.step(state, Nothing(), numbers_drawn, seen.measured)
+            kept_state, verdict = detector.step(state, Nothing(), numbers_drawn, seen.measured)
             actual, alive = scoring.actual(seen), sample < departed
             scored, number = scoring.step(score, c.score, Nothing(), verdict, actual, sample, alive)
-            kept.append(after)
+            kept.append(kept_state)
             scores.append(scored)
             verdicts.append(verdict)
             numbers.append(number)
         flown = Flown(sample=seen, departed=departed, verdicts=tuple(verdicts), numbers=tuple(numbers))
-        return FusedState(loop=loop, departed=departed, detectors=tuple(kept), scores=tuple(scores)), flown
+        after = FusedState(
+            loop=loop,
+            departed=departed,
+            detectors=tuple(kept),
+            scores=tuple(scores),
+            declared=x.declared if self.commander is None else acted_on(verdicts[self.commander]),
+        )
+        return after, flown
 
     def merge_keys(self) -> list[Hashable]:
         """One key a state row: equal keys may be flown as one row, if they also change alike.
 
-        Rows of detectors and scores that start with one and the same number share a key; rows of the loop never do.
+        Rows of detectors and scores, and of what the loop is told, that start with one and the same number share a key; rows
+        of the loop never do.
         """
         nowhere = mapped(lambda _: None, self.nobody.constants.shape)  # what depends on constants is no number
+        told = self.states.shape.declared
         starts = (
             *(d.start(Nothing()) for d in self.detectors.values()),
             *(scoring.start(nowhere) for scoring in self.scoring),
+            mapped(lambda _: 0.0, told),
         )
-        layouts = (*(d.states for d in self.detectors.values()), *(scoring.states for scoring in self.scoring))
+        layouts: tuple[Layout[Any], ...] = (
+            *(d.states for d in self.detectors.values()),
+            *(scoring.states for scoring in self.scoring),
+            Layout(told),
+        )
         keys: list[Hashable] = list(range(self.loop.states.size + 1))
         for start, layout in zip(starts, layouts, strict=True):
             for (_, value), rows in zip(leaves(start), layout.counts.values(), strict=True):

@@ -41,10 +41,14 @@ def rehearsed(flyer: Flyer, notice: Callable[[str], None] | None = None) -> Flye
         if notice is None:
             break
         if name in given_up:
-            notice(f"{name} is {given_up[name].said}; all its rows are `error`, the other detectors fly")
+            rest = "all its rows are `error`, the other detectors fly"
+            if name == flyer.assembly.commander:
+                rest = "the aircraft acts on it, so nothing is flown and all rows are `error`"
+            notice(f"{name} is {given_up[name].said}; {rest}")
         elif own.one_by_one or flyer.compiled:
             how = "one flight at a time" if own.one_by_one else "many flights side by side"
-            notice(f"{name} cannot be compiled and flies in Python, {how}: {reason}")
+            all_ = ", and with it the aircraft that acts on it" if name == flyer.assembly.commander else ""
+            notice(f"{name} cannot be compiled and flies in Python, {how}{all_}: {reason}")
     return Flyer(flyer.assembly, flyer.backend, given_up) if given_up else flyer
 
 

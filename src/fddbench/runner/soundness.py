@@ -7,6 +7,7 @@ import numpy as np
 from fddbench.errors import FddbenchError, place_of, reason_of
 from fddbench.interfaces import Loop, Sample
 from fddbench.runner.assembly import Assembly
+from fddbench.runner.reconfiguration import nothing_declared, told
 
 __all__ = ["require_sound"]
 
@@ -43,9 +44,10 @@ def _flown(assembly: Assembly) -> str:
     batch = assembly.batch(np.zeros(2, dtype=np.int64))
     loop = assembly.loop
     x, c = loop.states.unpack(batch.state), loop.constants.unpack(batch.constants)
+    more = told(assembly, nothing_declared(assembly, 2))
     with np.errstate(all="ignore"):
         for sample, drawn in enumerate(assembly.normals(loop.draws, batch, 0, _SAMPLES)):
-            x, seen = loop.step(x, c, loop.draws.unpack(drawn), np.float64(sample))
+            x, seen = loop.step(x, c, loop.draws.unpack(drawn), np.float64(sample), **more)
             loop.states.check(x, 2)
             wrong = _shown(loop, seen)
             if wrong:

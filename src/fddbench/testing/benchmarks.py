@@ -12,18 +12,18 @@ from fddbench.errors import FddbenchError
 from fddbench.interfaces import Benchmark, Plant
 from fddbench.interfaces.benchmark import default_choices
 from fddbench.runner.assembling import assemble
-from fddbench.testing.campaigns import different_bits, flown, require, some_flights
+from fddbench.testing.campaigns import Cases, different_bits, flown, require, some_flights
 
 __all__ = ["check_benchmark"]
 
-_WATCHER = '''"""Watches nothing and declares nothing."""
+_WATCHER = '''"""Watches nothing and declares nothing; or watches everything and declares it all from some sample on."""
 
 from types import SimpleNamespace
 
 import numpy as np
 from pydantic import BaseModel
 
-from fddbench.blocks.layout import Layout, Nothing
+from fddbench.blocks.layout import ROW, Layout, Nothing, Row, record
 from fddbench.interfaces import Verdict
 
 
@@ -44,14 +44,42 @@ class Watcher:
         value = getattr(measured, self.signal)
         zero = 0.0 * np.abs(value[0] if self.rows else value)
         return x, Verdict(np.stack([zero])[:0], zero)
+
+
+@record
+class Clock:
+    samples: Row
+
+
+class Declarer:
+    about, recorded, states = "everything", (), Layout(Clock(samples=ROW))
+
+    class Gains(BaseModel):
+        first: float
+
+    def __init__(self, gains, bus):
+        self.first, self.n = gains.first, len(bus.sites)
+
+    from_design = classmethod(lambda cls, gains, bus: cls(gains, bus))
+
+    def start(self):
+        return Clock(samples=0.0)
+
+    def step(self, x, measured):
+        alarm = np.where(x.samples >= self.first, 1.0, 0.0)
+        return Clock(samples=x.samples + 1.0), Verdict(np.stack([alarm] * self.n), alarm)
 '''
+
+_SAMPLE_S, _NEVER = 0.01, 1e9
+"""Clock of the check [s], and a sample that no flight has."""
 
 
 def check_benchmark(name: str, *, beside: str | Path = ".", duration_s: float = 2.0) -> None:
     """Fly a benchmark healthy and with a fault, in every manoeuvre and with every option of its choices.
 
     Whatever it shows has the same bits in any company and in compiled code; a fault of size zero is the healthy flight; its
-    parameters, sites and manoeuvres can be used in a campaign.
+    parameters, sites and manoeuvres can be used in a campaign. A loop that reconfigures flies, while nothing is declared, as
+    it flies without, and keeps the same bits when everything is declared at half of the time.
 
     Parameters
     ----------
@@ -77,23 +105,25 @@ def check_benchmark(name: str, *, beside: str | Path = ".", duration_s: float = 
         require(inside, f"the default of {parameter.name}, {parameter.default:g}, is outside of its own limits")
     require(plant.sites, f"benchmark {name!r} has no fault site")
     with tempfile.TemporaryDirectory() as made:
-        where = _folder(Path(made), name, folder)
+        where = _folder(Path(made), name, folder, half=round(duration_s / 2.0 / _SAMPLE_S))
         for chosen in _one_by_one(benchmark):
             path = where / "check.yaml"
             path.write_text(canonical_text(_campaign(name, plant, chosen, duration_s)), encoding="utf-8")
             _fly(path, chosen)
 
 
-def _folder(made: Path, name: str, beside: Path) -> Path:
-    """Folder with the watcher, and with the files of the benchmark if it stands in one."""
+def _folder(made: Path, name: str, beside: Path, *, half: int) -> Path:
+    """Folder with the detectors of the check, and with the files of the benchmark if it stands in one."""
     for file, content in kinds.find("benchmark", name, beside=beside).files.items():
         (made / file).parent.mkdir(parents=True, exist_ok=True)
         (made / file).write_bytes(content)
     (made / "detectors").mkdir()
     (made / "detectors" / "watcher.py").write_text(_WATCHER, encoding="utf-8")
-    (made / "detectors" / "watcher.yaml").write_text(
-        "kind: watcher.py:Watcher\nsource: none\ntuned_on: null\ngains: {}\n", encoding="utf-8"
-    )
+    gains = {"watcher: Watcher": "", "silent: Declarer": f"first: {_NEVER}", "declarer: Declarer": f"first: {half}"}
+    for design, numbers in gains.items():
+        file, member = design.split(": ")
+        text = f"kind: watcher.py:{member}\nsource: none\ntuned_on: null\ngains: {{{numbers}}}\n"
+        (made / "detectors" / f"{file}.yaml").write_text(text, encoding="utf-8")
     return made
 
 
@@ -115,7 +145,8 @@ def _campaign(name: str, plant: Plant, chosen: dict[str, str], duration_s: float
         scenarios.append({"name": f"bias_{site.name}", "faults": [{**fault, "amplitude_percent": 1.0}], **common})
     drawn = {p.name: {"uniform": [p.low, p.high]} for p in plant.parameters if p.low < p.high}
     return {
-        "name": "check", "benchmark": name, "seed": 1, "duration_s": duration_s, "detectors": ["watcher"], **chosen,
+        "name": "check", "benchmark": name, "seed": 1, "sample_s": _SAMPLE_S, "duration_s": duration_s,
+        "detectors": ["watcher"], **chosen,
         "scenarios": scenarios, "dispersions": {"monte_carlo": {"runs": 3, **drawn}},
     }  # fmt: skip
 
@@ -132,6 +163,24 @@ def _fly(path: Path, chosen: dict[str, str]) -> None:
     wrong = different_bits(assembly, batch, recorded)
     require(not wrong, f"with {what}: {wrong}")
     _require_zero_is_healthy(path, recorded)
+    if getattr(loop, "reconfigures", False):
+        _require_reconfigures(path, batch.cases, recorded, what)
+
+
+def _require_reconfigures(path: Path, cases: Cases, recorded: list[str], what: str) -> None:
+    """A loop that is told of no declaration flies as one that is told nothing; one that is told flies alike everywhere."""
+    idle, silent, acting = (
+        assemble(read_campaign(path, changes))
+        for changes in ([], *([f"detectors=[{name}]", f"reconfigure={name}"] for name in ("silent", "declarer")))
+    )
+    told, untold = (flown(assembly, assembly.batch(cases), recorded).recorded for assembly in (silent, idle))
+    for signal, rows in untold.items():
+        same = rows.tobytes() == told[signal].tobytes()
+        require(
+            same, f"with {what}: {signal} differs between declared=None and rows of zeros; nothing is declared in both"
+        )
+    wrong = different_bits(acting, acting.batch(cases), recorded)
+    require(not wrong, f"with {what}, everything declared: {wrong}")
 
 
 def _require_zero_is_healthy(path: Path, recorded: list[str]) -> None:

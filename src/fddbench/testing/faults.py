@@ -17,7 +17,7 @@ _N, _CASES, _ONSET, _END, _SAMPLE_S = 60, 3, 20, 50, 0.01
 
 
 def check_fault(name: str, sizes: Mapping[str, Any], *, beside: str | Path = ".", unit: str = "deg/s") -> None:
-    """Fly a kind of fault on two of three sites.
+    """Fly a kind of fault on two of three sites that can float.
 
     It leaves every bit of the healthy signal before its onset, after its end and on other sites; it does something in between;
     it gives the same bits in any company.
@@ -48,7 +48,8 @@ def check_fault(name: str, sizes: Mapping[str, Any], *, beside: str | Path = "."
     common = {"kind": name, "sites": ["s1", "s2"], "onset_s": _ONSET * _SAMPLE_S, "end_s": _END * _SAMPLE_S}
     fault = model.model_validate({**common, **sizes})
     sites = tuple(
-        Site(name=f"s{j + 1}", signal="s", row=j, unit_name=unit, admissible=40.0, stops=(-1e3, 1e3)) for j in range(3)
+        Site(name=f"s{j + 1}", signal="s", row=j, unit_name=unit, admissible=40.0, stops=(-1e3, 1e3), floats=True)
+        for j in range(3)
     )
     healthy = np.random.default_rng(7).normal(size=(_N, 3, _CASES))
     normals = np.random.default_rng(8).normal(size=(_N, 4, _CASES))
@@ -74,6 +75,6 @@ def _fly(sites: tuple[Site, ...], fault: Any, healthy: Floats, normals: Floats) 
     with np.errstate(all="ignore"):  # on sites without the fault its constants are zero, and what it says is not used
         for k in range(len(healthy)):
             drawn = block.draws.unpack(normals[k, : block.draws.size])
-            x, signal = block.step(x, c, drawn, healthy[k], np.float64(k))
+            x, signal = block.step(x, c, drawn, healthy[k], np.float64(k), free=-0.3 * healthy[k])
             found.append(signal)
     return np.array(found)

@@ -115,6 +115,7 @@ def test_sites_choices_and_limits(bench):
         (f"f{row + 1}", "component", "f", row) for row in range(3)
     ]
     assert {(site.unit_name, site.admissible, site.stops) for site in sites} == {("", 1.0, (-np.inf, np.inf))}
+    assert all(site.additive and not site.floats for site in sites)
     assert [limit_s(sites[:n]) for n in (1, 2, 3)] == [5.0, 5.0, 5.0]
     assert tuple(bench.benchmark.choices["plant"].options) == ("norm_bounded", "boundary", "structured", "equation_79")
     assert bench.benchmark.plant(default_choices(bench.benchmark)) is bench.benchmark

@@ -19,6 +19,7 @@ SITES = (
         unit_name="deg",
         admissible=25.0,
         stops=(-25.0, 25.0),
+        floats=True,
         limits_s=(3.0,),
     ),
     Site(name="thruster", kind="actuator", signal="thrust_n", unit_name="N", admissible=1000.0, limits_s=(4.0,)),
@@ -55,7 +56,7 @@ class Loop:
         after, shown = {}, {}
         for name, f in self.faults.items():
             args = (getattr(x, name), getattr(c, name), getattr(n, name))
-            after[name], rows = f.step(*args, np.stack([healthy[name]]), sample)
+            after[name], rows = f.step(*args, np.stack([healthy[name]]), sample, free=np.stack([-0.3 * x.rate]))
             shown[name] = rows[0]
         rate = x.rate + self.T * (0.5 * shown["vane"] + 0.01 * shown["thruster"] - shown["gyro"])
         bus = SimpleNamespace(q_deg_s=shown["gyro"], vane_deg=shown["vane"], thrust_n=shown["thruster"])

@@ -23,7 +23,16 @@ class JetEngine(SinglePlant):
     about = "linear jet engine with uncertain dynamics, three disturbances and three additive faults"
     choices: Mapping[str, Choice] = {"plant": Choice(about="which engines: the set of Δ", options=SETS)}
     sites = tuple(
-        Site(name=f"f{row + 1}", kind="component", signal="f", row=row, unit_name="", admissible=1.0, limits_s=(5.0,))
+        Site(
+            name=f"f{row + 1}",
+            kind="component",
+            additive=True,
+            signal="f",
+            row=row,
+            unit_name="",
+            admissible=1.0,
+            limits_s=(5.0,),
+        )
         for row in range(3)
     )
     parameters: tuple[Parameter, ...] = (

@@ -13,7 +13,8 @@ from fddbench.blocks.drawn import Draws
 from fddbench.blocks.layout import Layout, Nothing, Row, Rows, record
 from fddbench.faults.injection import SignalFaults, SignalFaultsState
 from fddbench.flight.actuators import ActuatorState
-from fddbench.flight.turbulence import Gust
+from fddbench.flight.atmosphere import FT_M
+from fddbench.flight.wind import Encounter, Wind
 from fddbench.interfaces import Bus, Flights, Options, Prepared, Sample, Site, Voter
 from fddbench.voting.block import VoterBlock
 
@@ -68,7 +69,7 @@ class LateralLoop:
         What flies.
     sites : tuple of Site
         Fault sites: one sensor a row of ``r_deg_s``, and any surfaces, rows of ``surface_deg``.
-    voter, noise, gust : Voter, Noise, Gust
+    voter, noise, gust : Voter, Noise, Wind
         What was chosen.
     options : Options
         Clock and faults.
@@ -86,7 +87,7 @@ class LateralLoop:
     )
 
     def __init__(
-        self, plant: YawRatePlant, sites: tuple[Site, ...], voter: Voter, noise: Noise, gust: Gust, options: Options
+        self, plant: YawRatePlant, sites: tuple[Site, ...], voter: Voter, noise: Noise, gust: Wind, options: Options
     ) -> None:
         self.plant, self.voter, self.gust, self.sample_s = plant, VoterBlock(voter), gust, options.sample_s
         self.rate_faults = SignalFaults(sites, "r_deg_s", options.faults, options.sample_s)
@@ -131,12 +132,12 @@ class LateralLoop:
     def prepare(self, flights: Flights) -> Prepared:
         """Constants of the parts, and which flights the plant refuses."""
         plant = self.plant.prepare(flights.parameters, flights.manoeuvres)
-        gust = self.gust.prepare(
-            flights.normals,
-            scale_ratio=flights.parameters["gust_scale_ratio"],
+        meets = Encounter(
             v_tas_m_s=plant.constants.v_tas_m_s,
-            sample_s=self.sample_s,
+            scale_ratio=flights.parameters["gust_scale_ratio"],
+            altitude_m=flights.parameters["altitude_ft"] * FT_M,
         )
+        gust = self.gust.prepare(flights.normals, meets, self.sample_s)
         constants = LoopConstants(
             plant=plant.constants,
             gust=gust,
@@ -159,7 +160,8 @@ class LateralLoop:
 
     def step(self, x: LoopState, c: LoopConstants, n: LoopDraws, sample: Row) -> tuple[LoopState, Sample]:
         """One sample, see `fddbench.interfaces.Loop.step`."""
-        gust, gust_m_s = self.gust.step(x.gust, c.gust, n.gust, like=x.actuators.position_deg[0])
+        gust, air = self.gust.step(x.gust, c.gust, n.gust, sample, like=x.actuators.position_deg[0])
+        gust_m_s = air.v_m_s
         surface_faults, surface_deg = self._surfaces(x, c, n, sample)
         plant, motion = self.plant.step(x.plant, c.plant, n.plant, surface_deg, gust_m_s, sample)
         _, readings = self.sensors.step(

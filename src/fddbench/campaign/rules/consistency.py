@@ -10,7 +10,7 @@ from fddbench.campaign.rules.times import MOST_LEVELS, times
 from fddbench.campaign.sampling import point_radices
 from fddbench.campaign.streams import scenario_stream
 from fddbench.campaign.variation import level_radices
-from fddbench.errors import Mistake
+from fddbench.errors import Mistake, did_you_mean
 from fddbench.faults.specification import FaultSpecification
 from fddbench.interfaces import Benchmark, Plant
 
@@ -27,6 +27,7 @@ def inconsistencies(
     document: Document, written: CampaignFile, faults: Faults, benchmark: Benchmark, plant: Plant
 ) -> Iterator[Mistake]:
     """Every contradiction in a campaign whose keys and names are right."""
+    yield from _reconfigured(document, written)
     yield from _repeated(document, [entry.name for entry in written.scenarios])
     yield from _too_many(document, written, faults)
     yield from ranges(document, written, plant)
@@ -35,6 +36,22 @@ def inconsistencies(
         if entry.detection_time_limit_s is not None and not faults[number]:
             message = "a healthy flight has no detection time; remove this key or add faults"
             yield document.mistake(("scenarios", number, "detection_time_limit_s"), message, key=True)
+
+
+def _reconfigured(document: Document, written: CampaignFile) -> Iterator[Mistake]:
+    """What is wrong with the detector on which the aircraft acts."""
+    name, known = written.reconfigure, written.detectors
+    if name is None:
+        return
+    if name not in known:
+        hint = " ".join(filter(None, [did_you_mean(name, known), f"Its detectors: {', '.join(known)}"]))
+        yield document.mistake(("reconfigure",), f"no detector of this campaign is called {name!r}. {hint}")
+    if written.purpose == "tuning":
+        message = (
+            "thresholds are tuned on flights that do not depend on them; an aircraft that acts on a detector flies otherwise "
+            "after every false alarm. Remove this key here and keep it in the campaign that evaluates"
+        )
+        yield document.mistake(("reconfigure",), message, key=True)
 
 
 def _repeated(document: Document, scenarios: list[str]) -> Iterator[Mistake]:

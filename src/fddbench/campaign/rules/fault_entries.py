@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, get_args
@@ -79,7 +79,23 @@ def _read_fault(
             "fault for each unit"
         )
         found.mistakes.append(document.mistake((*address, "sites"), message))
+    found.mistakes += _unfit_sites(document, address, fault, sites)
     return fault
+
+
+def _unfit_sites(
+    document: Document, address: Address, fault: FaultSpecification, sites: Sequence[Site]
+) -> Iterator[Mistake]:
+    """Sites that a fault names and cannot act on, each with those that it can."""
+    fit = [site.name for site in sites if not fault.unfit_on(site)]
+    named = {site.name: site for site in sites}
+    for position, name in enumerate(fault.sites):
+        reason = fault.unfit_on(named[name]) if name in named else ""
+        if reason:
+            message = (
+                f"{fault.kind} cannot act on {name}: {reason}. Sites where it can: {', '.join(fit) or 'none here'}"
+            )
+            yield document.mistake((*address, "sites", position), message)
 
 
 def _own_kind(model: type[FaultSpecification]) -> dict[str, str]:

@@ -156,6 +156,9 @@ class CampaignFile(Strict):
         Length of every flight [s]; a scenario may say otherwise.
     detectors : tuple of str
         Names of designs, files in ``detectors/``.
+    reconfigure : str
+        One of these detectors, if the aircraft is to act on what it declares: at every sample on its declarations of the
+        sample before. Nobody else's declarations, and no other detector in the list, have a part in the flight.
     """
 
     name: Name
@@ -169,6 +172,7 @@ class CampaignFile(Strict):
     scenarios: Annotated[tuple[ScenarioEntry, ...], Field(min_length=1)]
     dispersions: Dispersions = Dispersions()
     detectors: Annotated[tuple[Name, ...], Field(min_length=1)]
+    reconfigure: Name | None = None
 
 
 @cache

@@ -1,14 +1,23 @@
-"""The keys of a recipe in a design file and what values they take."""
+"""The keys of a recipe that makes a `hinf_filter`, and what values they take."""
 
+from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from fddbench.campaign.rules.model import Strict
-from fddbench.design.recipe_entries import Matrix, ReferenceEntry, Row, UncertaintyEntry, WeightsEntry
+from fddbench.design.recipes.hinf_entries import (
+    Matrix,
+    ReferenceEntry,
+    Row,
+    UncertaintyEntry,
+    WeightsEntry,
+    spelled_out,
+)
+from fddbench.design.recipes.hinf_making import gains_of, made
+from fddbench.design.recipes.recipe import Made, Recipe
 from fddbench.errors import DesignError
 
-__all__ = ["Recipe"]
+__all__ = ["HinfRecipe"]
 
 _SECOND_STEP = 0.02
 _TAKES = {
@@ -20,7 +29,7 @@ _TAKES = {
 """Keys that mean something to a method; others are refused with it."""
 
 
-class Recipe(Strict):
+class HinfRecipe(Recipe):
     """How the numbers of a `hinf_filter` design come about.
 
     Attributes
@@ -45,7 +54,7 @@ class Recipe(Strict):
     window_s, confirm_s : float
         Evaluation of the residuals, copied into the gains.
     found : mapping
-        Written by the command: γ of this filter, the optimum, the lower bound, margins of the certificate.
+        γ of this filter, the optimum, the lower bound, margins of the certificate.
     """
 
     plant: str | dict[str, Matrix]
@@ -58,7 +67,17 @@ class Recipe(Strict):
     relax: Annotated[float, Field(gt=0.0, le=1.0)] = _SECOND_STEP
     window_s: Annotated[float, Field(gt=0.0)]
     confirm_s: Annotated[float, Field(ge=0.0)]
-    found: dict[str, Any] = Field(default_factory=dict)
+
+    @classmethod
+    def spelled_out(cls, written: Mapping[str, Any]) -> dict[str, Any]:
+        """The recipe with its short forms as blocks."""
+        return spelled_out(written)
+
+    def make(self) -> Made:
+        """Filter of the recipe, and what is known of it."""
+        self.require_keys()
+        filter_, found = made(self)
+        return Made(gains=gains_of(filter_, self), found=found)
 
     def require_keys(self) -> None:
         """Refuse keys that the method does not look at, and a method without what it needs."""

@@ -1,0 +1,1 @@
+"""A transport aircraft with six degrees of freedom for the whole envelope: data, equations, trim, linearisation."""
