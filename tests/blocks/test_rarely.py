@@ -100,20 +100,41 @@ def test_no_branch_where_it_would_spare_nothing(step: Any) -> None:
 
 
 def _rows(state: Any, constants: Any, normals: Any, sample: Any) -> dict[str, Any]:
-    """Rows that seldom change: two that change places, one that others ask for, one that asks for it, one of a ring."""
+    """Rows that seldom change: two that change places, one that others ask for, one that asks, one not worth a branch."""
     first = constants[0]
     turn = rarely((sample >= first) & (sample < first + 3.0))
     left = np.where(turn, _wave(state[1] + normals[0]), state[0])
     right = np.where(turn, _wave(state[0]) * constants[1], state[1])
     often = 0.5 * state[2] + left + 0.1 * state[3]  # asks for a new row, and for an old one that seldom changes
     later = np.where(rarely((sample == first + 1.0) | (often > 1.2)), _wave(often) + state[2] + left, state[3])
-    plain = np.where(rarely(sample > first), state[4] + 1.0, state[4])  # not worth a branch
+    plain = np.where(rarely(sample > first), state[4] + 1.0, state[4])
     return {"state": np.stack([left, right, often, later, plain]), "seen": (left - state[0])[np.newaxis]}
 
 
-@pytest.mark.parametrize("first", [np.full(37, 1e9), np.arange(37.0), np.where(np.arange(37) % 16 == 3, 4.0, 1e9)])
-def test_rows_that_seldom_change_fly_as_in_numpy(where: Any, same: Any, first: Any) -> None:
-    expected, found = _flown(first, _rows, backend="numpy"), _flown(first, _rows, **where)
+def _mixed(state: Any, constants: Any, normals: Any, sample: Any) -> dict[str, Any]:
+    """Two rows become the same; one asks for what another makes of a new row; an old one that always changes is read late."""
+    turn = rarely((sample >= constants[0]) & (sample < constants[0] + 3.0))
+    both = np.where(turn, _wave(state[3] + normals[0]), state[0])
+    left = np.where(turn, _wave(state[3] * 2.0), state[1])
+    right = np.where(turn, _wave(0.5 * state[4] + left), state[2])
+    half = 0.5 * state[4]
+    late = _wave(half) + state[3]  # the old one, long after the new one is known
+    return {"state": np.stack([both, left, right, half, 0.3 * both + late]), "seen": both[np.newaxis]}
+
+
+def _always(state: Any, constants: Any, normals: Any, sample: Any) -> dict[str, Any]:
+    """Rows that change in every sample, read behind a branch alone, and where another has its place."""
+    turn = rarely((sample >= constants[0]) & (sample < constants[0] + 3.0))
+    kept = np.where(turn, _wave(state[3]) + normals[0], state[0])
+    alone = np.where(turn, _wave(state[1] + 2.0), state[4])
+    again = np.where(turn, _wave(state[2] + 1.0), kept)
+    return {"state": np.stack([kept, 0.1 * sample, kept, again, alone]), "seen": kept[np.newaxis]}
+
+
+@pytest.mark.parametrize("step", [_rows, _mixed, _always])
+def test_rows_that_seldom_change_fly_as_in_numpy(where: Any, same: Any, step: Any) -> None:
+    first = np.concatenate([np.full(32, 1e9), np.arange(37.0), np.where(np.arange(37) % 16 == 3, 4.0, 1e9)])
+    expected, found = _flown(first, step, backend="numpy"), _flown(first, step, **where)
     assert same(found.state, expected.state)
     assert same(found.recorded["seen"], expected.recorded["seen"])
 
