@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -145,13 +146,19 @@ def list_(args: argparse.Namespace) -> int:
         names = kinds.known(family)
         if names:
             print(f"{family}s")
-        for name in names:
-            print(f"  {name:<16}{_about(family, name)}")
+            _aligned({name: _about(family, name) for name in names})
     for name in ("campaigns", "detectors"):
         print("shipped campaigns" if name == "campaigns" else "shipped designs")
-        for path in sorted(gallery.folder(name).glob("*.yaml")):
-            print(f"  {path.stem:<26}{path.read_text(encoding='utf-8').split(chr(10))[0].lstrip('# ')}")
+        paths = sorted(gallery.folder(name).glob("*.yaml"))
+        _aligned({path.stem: path.read_text(encoding="utf-8").split("\n")[0].lstrip("# ") for path in paths})
     return 0
+
+
+def _aligned(about: Mapping[str, str]) -> None:
+    """Print names in a column as wide as the longest, and what they are beside them."""
+    width = max(map(len, about), default=0) + 2
+    for name, text in about.items():
+        print(f"  {name:<{width}}{text}")
 
 
 def _about(family: str, name: str) -> str:

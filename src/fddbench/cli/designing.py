@@ -12,7 +12,7 @@ __all__ = ["design", "tune"]
 def design(args: argparse.Namespace) -> int:
     """Make the numbers of a design anew from its recipe, with its guaranteed gamma and the certificate.
 
-    Prints the design, or writes it with --output. Its thresholds are untuned: go on with `fddbench tune`.
+    Prints the design, or writes it with --output. Thresholds of a detector are untuned: go on with `fddbench tune`.
     """
     from fddbench.design.recipe import cook
 
@@ -24,7 +24,8 @@ def design(args: argparse.Namespace) -> int:
         print(cooked.text, end="")
     else:
         _write(args.output, cooked.text, force=args.force)
-        print(f"{args.output}: thresholds are untuned; next: fddbench tune {args.output} CAMPAIGN", file=sys.stderr)
+        if "thresholds" in cooked.gains:
+            print(f"{args.output}: thresholds are untuned; next: fddbench tune {args.output} CAMPAIGN", file=sys.stderr)
     return 0
 
 

@@ -21,9 +21,10 @@ __all__ = ["Cooked", "cook"]
 
 @dataclass(frozen=True)
 class Cooked:
-    """A design made anew: text of its file, what was found now, and what the file said before."""
+    """A design made anew: text of its file, its gains, what was found now, and what the file said before."""
 
     text: str
+    gains: Mapping[str, Any]
     found: Mapping[str, Any]
     before: Mapping[str, Any]
 
@@ -47,7 +48,7 @@ def cook(path: Path) -> Cooked:
     data = {key: document.data[key] for key in ("kind", "about", "source") if key in document.data}
     written = {**document.data["recipe"], "found": dict(made.found)}
     data |= {"tuned_on": None, "recipe": written, "gains": dict(made.gains)}
-    return Cooked(design_text(data), made.found, recipe.found)
+    return Cooked(design_text(data), made.gains, made.found, recipe.found)
 
 
 def _recipe(path: Path, document: Document) -> Recipe:

@@ -52,7 +52,7 @@ def _shown(seen):
     return {**vars(seen.measured), **seen.truth, "departed": np.where(seen.departed, 1.0, 0.0), "added": seen.added}
 
 
-def fly(loop, n_cases, duration_s, *, declared_from_s=None, **more):
+def fly(loop, n_cases, duration_s, *, declared_from_s=None, backend=None, **more):
     """Signals by name, (n_time, n_cases); `added` is (n_time, n_sites, n_cases)."""
     prepared = prepare(loop, n_cases, **more)
     assert set(prepared.infeasible_reason) == {""}
@@ -63,7 +63,7 @@ def fly(loop, n_cases, duration_s, *, declared_from_s=None, **more):
         program(flown, shown=_shown),
         streams=loop.draws.streams,
         recorded=(*loop.bus.signals, *loop.truth, "departed", "added"),
-        backend="llvm" if llvm.available() else "numpy",
+        backend=backend or ("llvm" if llvm.available() else "numpy"),
     )
     samples = np.full(n_cases, round(duration_s / loop.sample_s) + 1, dtype=np.int64)
     number = np.arange(n_cases, dtype=np.uint64)

@@ -94,8 +94,8 @@ def test_a_flight_that_leaves_the_model_departs(bench):
 def test_what_cannot_be_flown_says_why(bench):
     prepared = bench.prepare(
         bench.loop(), 5,
-        mass_kg=[263e3, 340e3, 263e3, 263e3, 263e3], altitude_m=[7e3, 11e3, 1e3, 2e3, 7e3],
-        v_tas_m_s=[241.0, 240.0, 280.0, 120.0, 241.0], stabiliser_deg=[-0.54, -0.54, -0.54, -0.54, -20.0],
+        mass_kg=[263e3, 330e3, 263e3, 263e3, 263e3], altitude_m=[7e3, 11e3, 1e3, 2e3, 7e3],
+        v_tas_m_s=[241.0, 275.0, 280.0, 120.0, 241.0], stabiliser_deg=[-0.54, -0.54, -0.54, -0.54, -20.0],
     )  # fmt: skip
     reasons = prepared.infeasible_reason
     assert reasons[0] == ""

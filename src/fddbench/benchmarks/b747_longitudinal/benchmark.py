@@ -5,6 +5,7 @@ from typing import Any
 
 from fddbench.benchmarks.b747_longitudinal.law import LAW_NEEDS
 from fddbench.benchmarks.b747_longitudinal.laws.open_loop import OpenLoop
+from fddbench.benchmarks.b747_longitudinal.laws.tracking import Hinf, Lqi, Scheduled
 from fddbench.benchmarks.b747_longitudinal.loop import LongitudinalLoop
 from fddbench.benchmarks.b747_longitudinal.plant import PLANT_NEEDS, LongitudinalPlant
 from fddbench.benchmarks.b747_longitudinal.plants.affine import LpvApprox, LpvFold
@@ -34,7 +35,7 @@ class B747Longitudinal:
         ),
         "law": Choice(
             about="how flight-path angle and airspeed are tracked",
-            options={"open_loop": OpenLoop},
+            options={"hinf": Hinf, "lqi": Lqi, "scheduled": Scheduled, "open_loop": OpenLoop},
             family="law",
             needs=LAW_NEEDS,
         ),
@@ -43,7 +44,7 @@ class B747Longitudinal:
             options=PRESETS,
             family="sensor",
             needs=(
-                *("alpha_deg", "q_deg_s", "v_tas_m_s", "theta_deg", "altitude_m", "acceleration_m_s2"),
+                *("alpha_deg", "q_deg_s", "v_tas_m_s", "theta_deg", "altitude_m", "gamma_deg", "acceleration_m_s2"),
                 *("elevator_deg", "stabiliser_deg", "thrust_n"),
             ),
         ),

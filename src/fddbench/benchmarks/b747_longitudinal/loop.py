@@ -193,6 +193,7 @@ class LongitudinalLoop:
             motion.v_tas_m_s,
             motion.theta_deg,
             motion.altitude_m,
+            motion.gamma_deg,
             acceleration_m_s2,
         )
         _, seen = self.sensors.step(

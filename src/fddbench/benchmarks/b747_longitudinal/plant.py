@@ -81,9 +81,8 @@ TRIM_POINT = TrimPoint(
 class Motion:
     """An aircraft at one sample, (n_cases,) each.
 
-    Angle of attack, airspeed and pitch rate relative to the ground's air mass are what sensors see: angle of attack [deg] and
-    airspeed [m/s] through the air, pitch rate [deg/s] and pitch angle [deg] of the body, altitude [m], flight-path angle
-    [deg]; whether it has left what the model describes (boolean).
+    Angle of attack [deg] and airspeed [m/s] through the air; pitch rate [deg/s], pitch angle [deg], altitude [m] and
+    flight-path angle [deg] over ground; whether it has left what the model describes (boolean).
     """
 
     alpha_deg: Row

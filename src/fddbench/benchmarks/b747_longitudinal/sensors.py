@@ -14,10 +14,11 @@ from fddbench.interfaces import Floats
 __all__ = ["PRESETS", "SIGNALS", "Noise", "SensorErrors", "Sensors"]
 
 SIGNALS = (
-    "alpha_deg", "q_deg_s", "v_tas_m_s", "theta_deg", "altitude_m", "acceleration_m_s2",
+    "alpha_deg", "q_deg_s", "v_tas_m_s", "theta_deg", "altitude_m", "gamma_deg", "acceleration_m_s2",
     "elevator_deg", "stabiliser_deg", "thrust_n",
 )  # fmt: skip
-"""What is measured; the last three are outputs of actuators."""
+"""What is measured: angle of attack and airspeed through the air; pitch, flight path and acceleration along it by inertial
+navigation; the last three are outputs of actuators."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,6 +30,7 @@ class Noise:
     v_tas_m_s: float
     theta_deg: float
     altitude_m: float
+    gamma_deg: float
     acceleration_m_s2: float
     elevator_deg: float
     stabiliser_deg: float
@@ -55,6 +57,7 @@ class SensorDraws:
     v_tas_m_s: Row
     theta_deg: Row
     altitude_m: Row
+    gamma_deg: Row
     acceleration_m_s2: Row
     elevator_deg: Row
     stabiliser_deg: Row
@@ -83,6 +86,7 @@ class Sensors:
             elevator_deg=Draw(consumers.SENSORS_B, 2),
             stabiliser_deg=Draw(consumers.SENSORS_B, 3),
             thrust_n=Draw(consumers.SENSORS_C, 0),
+            gamma_deg=Draw(consumers.SENSORS_C, 1),
         )
     )
 
@@ -116,8 +120,8 @@ class Sensors:
 
 
 _IDEAL = Noise(
-    alpha_deg=0.0, q_deg_s=0.0, v_tas_m_s=0.0, theta_deg=0.0, altitude_m=0.0, acceleration_m_s2=0.0,
-    elevator_deg=0.0, stabiliser_deg=0.0, thrust_n=0.0,
+    alpha_deg=0.0, q_deg_s=0.0, v_tas_m_s=0.0, theta_deg=0.0, altitude_m=0.0, gamma_deg=0.0,
+    acceleration_m_s2=0.0, elevator_deg=0.0, stabiliser_deg=0.0, thrust_n=0.0,
 )  # fmt: skip
 
 PRESETS: Mapping[str, Noise] = {
@@ -125,13 +129,13 @@ PRESETS: Mapping[str, Noise] = {
     "ideal": _IDEAL,
     # ours, of inertial and air-data sensors after their filters; positions and thrust are read without noise
     "white": Noise(
-        alpha_deg=0.02, q_deg_s=0.005, v_tas_m_s=0.05, theta_deg=0.005, altitude_m=0.2, acceleration_m_s2=0.005,
-        elevator_deg=0.0, stabiliser_deg=0.0, thrust_n=0.0,
+        alpha_deg=0.02, q_deg_s=0.005, v_tas_m_s=0.05, theta_deg=0.005, altitude_m=0.2, gamma_deg=0.005,
+        acceleration_m_s2=0.005, elevator_deg=0.0, stabiliser_deg=0.0, thrust_n=0.0,
     ),
     # ours: vane, rate gyro and air data as they are, position transducers, and a thrust computed from pressures
     "realistic": Noise(
-        alpha_deg=0.1, q_deg_s=0.02, v_tas_m_s=0.2, theta_deg=0.02, altitude_m=1.0, acceleration_m_s2=0.02,
-        elevator_deg=0.02, stabiliser_deg=0.01, thrust_n=100.0,
+        alpha_deg=0.1, q_deg_s=0.02, v_tas_m_s=0.2, theta_deg=0.02, altitude_m=1.0, gamma_deg=0.02,
+        acceleration_m_s2=0.02, elevator_deg=0.02, stabiliser_deg=0.01, thrust_n=100.0,
     ),
 }  # fmt: skip
 """Sensor sets by their names in campaigns; the first is the default."""
