@@ -12,12 +12,13 @@ if TYPE_CHECKING:
     from fddbench.api.designs import tune
     from fddbench.api.flights import score, signals
     from fddbench.api.pages import report
-    from fddbench.api.tables import alarms, columns, load, load_events, summary
+    from fddbench.api.tables import alarms, columns, detectable, load, load_events, summary
 
 __all__ = [
     "__version__",
     "alarms",
     "columns",
+    "detectable",
     "load",
     "load_events",
     "plan",
@@ -33,7 +34,7 @@ __version__ = "0.1.0"
 
 _ROOMS = {
     **dict.fromkeys(("plan", "read", "run"), "campaigns"),
-    **dict.fromkeys(("alarms", "columns", "load", "load_events", "summary"), "tables"),
+    **dict.fromkeys(("alarms", "columns", "detectable", "load", "load_events", "summary"), "tables"),
     **dict.fromkeys(("score", "signals"), "flights"),
     "report": "pages",
     "tune": "designs",

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 import yaml
 
+from fddbench.api.detectability import detectable_of
 from fddbench.campaign.meaning import Campaign
 from fddbench.reporting.page import ReportData
 from fddbench.reporting.published import iterations_for, published_for
@@ -68,6 +69,7 @@ def report_data(folder: Path) -> ReportData:
         in_sample=campaign.in_sample,
         limits_from=bench.limits_from,
         partial=found.sentence if found.partial else "",
+        detectable=detectable_of(rows, campaign),
     )
 
 

@@ -5,14 +5,16 @@ from pathlib import Path
 
 import pandas as pd
 
+from fddbench.api.detectability import detectable_of
 from fddbench.errors import FddbenchError
 from fddbench.metrics.alarms import ALARMS, summarize_alarms
+from fddbench.metrics.detectable import DETECTABLE
 from fddbench.metrics.summary import NEEDS, SUMMARY, summarize
 from fddbench.results import table
 from fddbench.results.schema import CASE, EVENTS, rows_schema
 from fddbench.runner.fingerprint import frozen
 
-__all__ = ["alarms", "columns", "load", "load_events", "summary"]
+__all__ = ["alarms", "columns", "detectable", "load", "load_events", "summary"]
 
 
 def load(folder: str | Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
@@ -41,6 +43,14 @@ def alarms(folder: str | Path) -> pd.DataFrame:
     return summarize_alarms(table.load(folder, ["case", *NEEDS]), in_sample=in_sample(folder))
 
 
+def detectable(folder: str | Path) -> pd.DataFrame:
+    """Smallest faults found in 90 % of flights, over the whole envelope and cell by cell, where the benchmark asks for maps.
+
+    The columns are those of `fddbench.metrics.detectable.DETECTABLE`.
+    """
+    return detectable_of(table.load(folder), frozen(Path(folder)))
+
+
 def in_sample(folder: str | Path) -> tuple[str, ...]:
     """Detectors of a folder of results whose designs were tuned on its flights."""
     return frozen(Path(folder)).in_sample
@@ -51,8 +61,8 @@ def columns(table: str = "rows") -> dict[str, str]:
 
     Parameters
     ----------
-    table : {"rows", "events", "summary", "alarms"}
-        As `load`, `load_events`, `summary` and `alarms` give them. Rows have besides a column ``p_<name>`` a
+    table : {"rows", "events", "summary", "alarms", "detectable"}
+        As `load`, `load_events`, `summary`, `alarms` and `detectable` give them. Rows have besides a column ``p_<name>`` a
         parameter, and ``f1_<key>`` what is drawn or swept of the first fault.
 
     Examples
@@ -61,6 +71,7 @@ def columns(table: str = "rows") -> dict[str, str]:
     'from the onset to the first alarm raised since [s]; null: none'
     """
     known = {"rows": [CASE, *rows_schema(())], "events": [CASE, *EVENTS], "summary": SUMMARY, "alarms": ALARMS}
+    known["detectable"] = DETECTABLE
     if table not in known:
         raise FddbenchError(f"no table is called {table!r}; known: {', '.join(known)}")
     return {field.name: field.metadata[b"about"].decode() for field in known[table]}

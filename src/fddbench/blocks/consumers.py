@@ -22,6 +22,7 @@ __all__ = [
     "SENSORS_A",
     "SENSORS_B",
     "SENSORS_C",
+    "SENSORS_D",
     "START",
     "UNCERTAINTY_0",
     "fault_number",
@@ -50,6 +51,8 @@ DRYDEN_LONGITUDINAL_START: Final = 14
 """The same before the first sample."""
 DRYDEN_LATERAL_START: Final = 15
 """The same before the first sample; 16 is kept for what turbulence may need besides."""
+SENSORS_D: Final = 17
+"""Sensor noise, four more."""
 
 FAULT_SLOT_0: Final = 64
 """First fault of a scenario, its first four sites; the next faults follow: 64..95."""

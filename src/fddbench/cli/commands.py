@@ -81,14 +81,17 @@ def scores(args: argparse.Namespace) -> int:
 
     A folder that does not hold all flights of its campaign is refused.
     """
-    from fddbench.api.tables import in_sample
+    from fddbench.api.detectability import detectable_of
     from fddbench.reporting.scores import scores_text
     from fddbench.results.folder import provenance_of
     from fddbench.results.table import load
     from fddbench.results.whole import require_whole
+    from fddbench.runner.fingerprint import frozen
 
     require_whole(args.folder)
-    print(scores_text(load(args.folder), provenance_of(args.folder), in_sample(args.folder)), end="")
+    rows, campaign = load(args.folder), frozen(args.folder)
+    maps = detectable_of(rows, campaign)
+    print(scores_text(rows, provenance_of(args.folder), campaign.in_sample, maps), end="")
     return 0
 
 

@@ -5,7 +5,7 @@ data-dependent ``if``; see ``blocks`` for the operations it may use. It runs on 
 it cannot look ahead.
 """
 
-from fddbench.interfaces.benchmark import Benchmark, Choice, Options, Parameter, Plant, SinglePlant
+from fddbench.interfaces.benchmark import Benchmark, Choice, Detectability, Options, Parameter, Plant, SinglePlant
 from fddbench.interfaces.bus import Bus
 from fddbench.interfaces.detector import Detector, Tunable, Verdict, Voter
 from fddbench.interfaces.fault import Fault, FaultBlock, Instant
@@ -19,6 +19,7 @@ __all__ = [
     "Benchmark",
     "Bus",
     "Choice",
+    "Detectability",
     "Detector",
     "Fault",
     "FaultBlock",

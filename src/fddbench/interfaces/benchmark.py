@@ -1,14 +1,15 @@
 """What a benchmark and its plants must offer."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, Protocol
 
 from fddbench.interfaces.fault import Fault
 from fddbench.interfaces.loop import Loop
 from fddbench.interfaces.site import Site
 
-__all__ = ["Benchmark", "Choice", "Options", "Parameter", "Plant", "SinglePlant", "default_choices"]
+__all__ = ["Benchmark", "Choice", "Detectability", "Options", "Parameter", "Plant", "SinglePlant", "default_choices"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,12 +48,16 @@ class Choice:
         only the options.
     needs : sequence of str
         What a member of that family must have.
+    reads : callable, optional
+        Makes an option of a YAML file beside the campaign that is named instead (``plant: mine.yaml``), from its path; raises
+        FddbenchError for one that is none. None: files of data are nothing to choose here.
     """
 
     about: str
     options: Mapping[str, Any]
     family: str = ""
     needs: Sequence[str] = ()
+    reads: Callable[[Path], Any] | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,6 +80,32 @@ class Options:
     faults: Sequence[Sequence[Fault]] = field(default=())
 
 
+@dataclass(frozen=True, kw_only=True)
+class Detectability:
+    """A map that the report draws: the smallest fault of a site that is found, over two parameters.
+
+    Attributes
+    ----------
+    site : str
+        The map is of faults of this site alone.
+    size : str
+        Their size as their kind writes it, ``loss_percent``; a scenario is on the map if it draws or sweeps it.
+    axes : (str, str)
+        What varies along the horizontal and the vertical axis: parameters of the plant, or what `derived` gives.
+    times : str
+        By whose magnitude a size is multiplied, what `derived` gives or a parameter; "" for nothing. A size in percent is a
+        share of it, and the product has its unit.
+    hatch_below : float
+        Where the median of that magnitude is smaller the map is hatched: all of it would be a small fault.
+    """
+
+    site: str
+    size: str
+    axes: tuple[str, str]
+    times: str = ""
+    hatch_below: float = 0.0
+
+
 class Plant(Protocol):
     """What flies: its parameters, what it refuses, what it can do; a benchmark with a single one may be its own plant."""
 
@@ -93,9 +124,10 @@ class Benchmark(Protocol):
 
     For the report it may have more, and has these otherwise: ``envelope_axes``, pairs of parameters that belong on the two
     axes of a picture (none); ``published``, the printed table that stands beside its results unless a campaign names another,
-    and ``iterations``, the printed course of an optimisation: files of ``reports/published`` by their names ("": none); a
-    method ``derived(chosen, parameters)``, more numbers of flights by name with unit, (n_cases,) arrays (a trim, say), of the
-    chosen options by key and of the parameters of flights, (n_cases,) arrays by name (none).
+    and ``iterations``, the printed course of an optimisation: files of ``reports/published`` by their names ("": none);
+    ``detectability``, the `Detectability` maps that are drawn (none); a method ``derived(chosen, parameters)``, more numbers of
+    flights by name with unit, (n_cases,) arrays (a trim, say), of the chosen options by key and of the parameters of flights,
+    (n_cases,) arrays by name (none).
     """
 
     name: str
@@ -127,6 +159,7 @@ class SinglePlant:
     shown: tuple[str, ...] = ()
     limits_from = "the author of the benchmark"
     envelope_axes: Sequence[tuple[str, str]] = ()
+    detectability: Sequence[Detectability] = ()
     published = ""
     iterations = ""
 

@@ -11,7 +11,7 @@ import pandas as pd
 from fddbench.interfaces import Recording
 from fddbench.metrics.alarms import summarize_alarms
 from fddbench.metrics.summary import summarize
-from fddbench.reporting import figures, headlines, signals, tables
+from fddbench.reporting import detectability, figures, headlines, signals, tables
 from fddbench.reporting.guarantees import guarantee_lines
 from fddbench.reporting.published import Iterations, Published
 
@@ -51,6 +51,8 @@ class ReportData:
         Detectors that were tuned on these flights.
     partial : str
         How many flights of how many the folder holds, "" when all.
+    detectable : DataFrame or None
+        Maps of detectability, lines of `fddbench.metrics.detectable.DETECTABLE`.
     """
 
     campaign: Mapping[str, Any]
@@ -66,6 +68,7 @@ class ReportData:
     envelope_axes: Sequence[tuple[str, str]] = ()
     in_sample: Sequence[str] = ()
     partial: str = ""
+    detectable: pd.DataFrame | None = None
 
 
 def write_page(report: ReportData, output: Path) -> None:
@@ -114,6 +117,7 @@ def _content(report: ReportData) -> dict[str, Any]:
         "compared": compared,
         "curves": figures.detection_curves(rows),
         "pictures": [p for r in report.recordings if r.cases for p in [_picture(r, rows)] if p["png"] is not None],
+        **_detectability(report.detectable, alarms),
         "envelope": figures.envelope(rows, report.envelope_axes),
         "reasons": reasons[:_MOST_REASONS],
         "more_reasons": max(len(reasons) - _MOST_REASONS, 0),
@@ -121,6 +125,15 @@ def _content(report: ReportData) -> dict[str, Any]:
         "provenance": report.provenance,
         "designs": report.designs,
     }
+
+
+def _detectability(maps: pd.DataFrame | None, alarms: pd.DataFrame) -> dict[str, Any]:
+    """Maps of detectability and their table; none where the benchmark asks for none."""
+    if maps is None or maps.empty:
+        return {"maps": [], "map_lines": [], "map_heads": ()}
+    pictures = detectability.detectability_pictures(maps, alarms)
+    lines = detectability.detectability_lines(maps, alarms)
+    return {"maps": pictures, "map_lines": lines, "map_heads": detectability.MAP_HEADS}
 
 
 def _settings(campaign: Mapping[str, Any], choices: Sequence[str]) -> dict[str, Any]:

@@ -9,13 +9,17 @@ import yaml
 from fddbench.metrics.alarms import summarize_alarms
 from fddbench.metrics.summary import summarize
 
-__all__ = ["false_alarms", "scores", "scores_text"]
+__all__ = ["detectable", "false_alarms", "scores", "scores_text"]
 
 _COLUMNS = (
     "in_sample", "pools", "flights", "flown", "infeasible", "failed", "departed", "wrong_site", "right", "late", "missed",
     "undecided", "false_alarm", "quiet", "isolated", "over_declared", "detections", "detection_time_median_s",
     "detection_time_p95_s", "detection_time_max_s", "changes_max", "estimate_bias_median", "estimate_rms_median",
     "margin_healthy_max",
+)  # fmt: skip
+_DETECTABLE = (
+    "scenario", "detector", "site", "size", "times", "flights", "found", "smallest", "relation", "large", "large_found_percent",
+    "large_found_low_percent", "large_found_high_percent",
 )  # fmt: skip
 _ALARMS = ("detector", "in_sample", "pools", "distinct_flights", "alarms", "exposure_h")
 
@@ -38,11 +42,26 @@ def _lines(table: pd.DataFrame, columns: Sequence[str]) -> list[dict[str, Any]]:
     return found
 
 
-def scores_text(rows: pd.DataFrame, provenance: Mapping[str, object], in_sample: Collection[str] = ()) -> str:
-    """YAML text: where the scores come from, one line per scenario and detector, and one per detector of false alarms."""
+def detectable(maps: pd.DataFrame) -> list[dict[str, Any]]:
+    """Smallest faults found over the whole envelope, by map, scenario and detector."""
+    return _lines(maps[maps["x_low"].isna().to_numpy(dtype=bool)], _DETECTABLE)
+
+
+def scores_text(
+    rows: pd.DataFrame,
+    provenance: Mapping[str, object],
+    in_sample: Collection[str] = (),
+    maps: pd.DataFrame | None = None,
+) -> str:
+    """YAML text: where the scores come from, one line per scenario and detector, and one per detector of false alarms.
+
+    With `maps`, lines of `fddbench.metrics.detectable.DETECTABLE`, the smallest faults found stand below.
+    """
     kept = ("campaign", "campaign_sha256", "designs_sha256", "seed", "schema_version", "fddbench")
     head = yaml.safe_dump({"provenance": {name: provenance.get(name) for name in kept}}, sort_keys=False)
     parts = {"scores": scores(rows, in_sample), "false_alarms": false_alarms(rows, in_sample)}
+    if maps is not None and not maps.empty:
+        parts["detectable"] = detectable(maps)
     return head + "".join(f"{name}:\n{''.join(map(_as_line, lines))}" for name, lines in parts.items())
 
 

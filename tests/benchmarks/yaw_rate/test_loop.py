@@ -241,7 +241,7 @@ def test_calm_air_and_no_faults_leave_no_row_behind(bench):
 def test_choices_and_their_defaults(bench):
     found = {key: tuple(choice.options) for key, choice in bench.benchmark.choices.items()}
     assert found == {
-        "plant": ("lateral_lpv",),
+        "plant": ("lateral_lpv", "transport_6dof"),
         "voter": ("median", "closest_two"),
         "sensors": ("white", "ideal"),
         "wind": ("none", "light", "moderate", "severe"),

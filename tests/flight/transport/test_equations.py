@@ -21,7 +21,8 @@ from fddbench.flight.transport.equations import (
     normalised,
 )  # fmt: skip
 from fddbench.flight.transport.reading import twin_jet
-from fddbench.flight.transport.trim import neutral, still
+from fddbench.flight.transport.trim import neutral
+from fddbench.flight.wind import still
 
 ONE = np.ones(1)
 JET = twin_jet()

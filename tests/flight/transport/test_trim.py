@@ -6,7 +6,8 @@ import pytest
 from fddbench.flight.atmosphere import GRAVITY_M_S2
 from fddbench.flight.transport.air import air_around
 from fddbench.flight.transport.equations import State, derivative, flow_of, thrust_n
-from fddbench.flight.transport.trim import neutral, residual, still, trim
+from fddbench.flight.transport.trim import neutral, residual, trim
+from fddbench.flight.wind import still
 
 
 def test_nothing_accelerates_at_any_point_of_table_5(twin):

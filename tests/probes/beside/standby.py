@@ -9,7 +9,7 @@ from fddbench.blocks.block import NO_DRAWS
 from fddbench.blocks.drawn import Draw, Draws
 from fddbench.blocks.layout import ROW, Layout, record
 from fddbench.faults.injection import SignalFaults
-from fddbench.interfaces import Bus, Parameter, Prepared, Sample, SinglePlant, Site
+from fddbench.interfaces import Bus, Detectability, Parameter, Prepared, Sample, SinglePlant, Site
 
 SITES = tuple(
     Site(name=name, signal="level_deg", row=row, unit_name="deg", admissible=10.0, limits_s=(1.0,))
@@ -51,7 +51,11 @@ class Loop:
 class Standby(SinglePlant):
     name, about = "standby", "a level held on one of two sensors"
     sites, manoeuvres, shown = SITES, {"hold": 6.0}, ("level_deg_1",)
+    detectability = (Detectability(site="first", size="amplitude_deg", axes=("gain_per_s", "time_constant_s")),)
     parameters = (Parameter(name="gain_per_s", about="loop gain", default=2.0, low=0.5, high=4.0),)
 
     def loop(self, options):
         return Loop(options)
+
+    def derived(self, chosen, parameters):
+        return {"time_constant_s": 1.0 / parameters["gain_per_s"]}

@@ -12,9 +12,15 @@ from fddbench.benchmarks.b747_longitudinal.plants.affine import LpvApprox, LpvFo
 from fddbench.benchmarks.b747_longitudinal.plants.nonlinear import Nonlinear
 from fddbench.benchmarks.b747_longitudinal.sensors import PRESETS
 from fddbench.flight.dryden import LONGITUDINAL_WINDS
-from fddbench.interfaces import Choice, Floats, Options
+from fddbench.interfaces import Choice, Detectability, Floats, Options
 
 __all__ = ["B747Longitudinal"]
+
+
+def _smallest_loss(site: str, *, times: str, hatch_below: float = 0.0) -> Detectability:
+    """Map of the smallest loss of what a site does in trim, over the envelope."""
+    axes = ("v_tas_m_s", "altitude_m")
+    return Detectability(site=site, size="loss_percent", axes=axes, times=times, hatch_below=hatch_below)
 
 
 class B747Longitudinal:
@@ -58,6 +64,10 @@ class B747Longitudinal:
     shown: tuple[str, ...] = ("gamma_true_deg", "v_tas_true_m_s", "elevator_true_deg", "thrust_true_n")
     limits_from = "our choice: 10 s for the elevator, 20 s for the thrust"
     envelope_axes = (("v_tas_m_s", "altitude_m"), ("x_cg_ratio", "mass_kg"))
+    detectability = (
+        _smallest_loss("elevator", times="elevator_trim_deg", hatch_below=0.3),
+        _smallest_loss("thrust", times="thrust_trim_n"),
+    )
 
     def plant(self, chosen: Mapping[str, Any]) -> LongitudinalPlant:
         """The chosen plant."""

@@ -27,7 +27,7 @@ def thrust_highest_n(altitude_m: Row, v_tas_m_s: Row) -> Row:
     """Most thrust of one engine [N], ``230 kN sigma^0.75 (1 - 0.36 sqrt M)`` with the relative density sigma.
 
     >>> thrust_highest_n(np.array([0.0, 7000.0, 10668.0]), np.array([0.0, 241.0, 252.0])).round(-2)
-    array([205000.,  72100.,  49300.])
+    array([230000.,  90900.,  63900.])
     """
     around = air(altitude_m)
     mach = v_tas_m_s / around.sound_m_s

@@ -3,12 +3,12 @@
 from collections.abc import Mapping
 from typing import Any
 
-from fddbench.benchmarks.yaw_rate.loop import LateralLoop
 from fddbench.benchmarks.yaw_rate.plant import PLANT_NEEDS, YawRatePlant
 from fddbench.benchmarks.yaw_rate.plants.lateral_lpv import LateralLpvPlant
+from fddbench.benchmarks.yaw_rate.plants.transport_6dof import Transport6Dof
 from fddbench.benchmarks.yaw_rate.sensors import PRESETS
-from fddbench.flight.turbulence import WINDS
-from fddbench.interfaces import Choice, Options
+from fddbench.benchmarks.yaw_rate.winds import WINDS
+from fddbench.interfaces import Choice, Loop, Options
 from fddbench.voting.closest_two import ClosestTwo
 from fddbench.voting.median import Median
 
@@ -27,7 +27,11 @@ class YawRate:
     about = "three yaw-rate sensors of a transport aircraft in closed loop"
     choices: Mapping[str, Choice] = {
         "plant": Choice(
-            about="what flies", options={"lateral_lpv": LateralLpvPlant}, family="plant", needs=PLANT_NEEDS
+            about="what flies",
+            options={"lateral_lpv": LateralLpvPlant, "transport_6dof": Transport6Dof},
+            family="plant",
+            needs=PLANT_NEEDS,
+            reads=Transport6Dof.of_file,
         ),
         "voter": Choice(
             about="how the sensors are voted",
@@ -55,8 +59,6 @@ class YawRate:
         plant: YawRatePlant = chosen["plant"]
         return plant
 
-    def loop(self, options: Options) -> LateralLoop:
-        """Closed loop for these options."""
-        chosen = options.chosen
-        plant = chosen["plant"](options.sample_s, options.substeps)
-        return LateralLoop(plant, plant.sites, chosen["voter"](), chosen["sensors"], chosen["wind"], options)
+    def loop(self, options: Options) -> Loop:
+        """The loop that the chosen plant flies in, for these options."""
+        return self.plant(options.chosen).loop(options)

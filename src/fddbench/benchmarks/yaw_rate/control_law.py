@@ -16,7 +16,7 @@ from fddbench.blocks.linear import column
 from fddbench.flight.atmosphere import GRAVITY_M_S2
 from fddbench.units import RAD_PER_DEG
 
-__all__ = ["AILERON_GAINS", "Q_DIAGONAL", "RUDDER_GAINS", "R_DIAGONAL", "LateralLaw", "LawState"]
+__all__ = ["AILERON_GAINS", "Q_DIAGONAL", "RUDDER_GAINS", "R_DIAGONAL", "LateralLaw", "LawState", "allocate"]
 
 # Bryson's rule: tolerated phi 5 deg, V_y of 2 deg of sideslip at 199 m/s, p 20 deg/s, r 2 deg/s, integral 8 deg s;
 # roll order 5 deg, rudder 2 deg
@@ -83,10 +83,10 @@ class LateralLaw:
         rudder = damper - (b[0] * error + b[1] * v_y + b[2] * p + b[4] * x.integral_rad_s)
         moved = x.integral_rad_s + self.sample_s * error
         integral = np.minimum(np.maximum(moved, -_INTEGRAL_RAD_S), _INTEGRAL_RAD_S)
-        return LawState(integral_rad_s=integral), _allocate(rudder, roll)
+        return LawState(integral_rad_s=integral), allocate(rudder, roll)
 
 
-def _allocate(rudder_deg: Rows, roll_deg: Rows) -> Rows:
+def allocate(rudder_deg: Rows, roll_deg: Rows) -> Rows:
     """Orders to [rudder, 4 ailerons, 8 spoilers] [deg]; odd surfaces of a kind act against the even ones."""
     more = np.abs(roll_deg) - _SPOILER_FROM_DEG
     up = _SPOILER_RATIO * np.maximum(more, 0.0)

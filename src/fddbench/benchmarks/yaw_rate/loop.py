@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from fddbench.benchmarks.yaw_rate.control_law import LateralLaw, LawState
-from fddbench.benchmarks.yaw_rate.plant import Motion, YawRatePlant
+from fddbench.benchmarks.yaw_rate.plant import LateralPlant, Motion
 from fddbench.benchmarks.yaw_rate.sensors import Noise, Readings, Sensors
 from fddbench.blocks.block import Part
 from fddbench.blocks.drawn import Draws
@@ -65,7 +65,7 @@ class LateralLoop:
 
     Parameters
     ----------
-    plant : YawRatePlant
+    plant : LateralPlant
         What flies.
     sites : tuple of Site
         Fault sites: one sensor a row of ``r_deg_s``, and any surfaces, rows of ``surface_deg``.
@@ -87,7 +87,7 @@ class LateralLoop:
     )
 
     def __init__(
-        self, plant: YawRatePlant, sites: tuple[Site, ...], voter: Voter, noise: Noise, gust: Wind, options: Options
+        self, plant: LateralPlant, sites: tuple[Site, ...], voter: Voter, noise: Noise, gust: Wind, options: Options
     ) -> None:
         self.plant, self.voter, self.gust, self.sample_s = plant, VoterBlock(voter), gust, options.sample_s
         self.rate_faults = SignalFaults(sites, "r_deg_s", options.faults, options.sample_s)

@@ -6,14 +6,11 @@ from typing import Any, Protocol
 from fddbench.blocks.drawn import Draws
 from fddbench.blocks.layout import Layout, Row, Rows, record
 from fddbench.flight.actuators import Actuators
-from fddbench.interfaces import Floats, Parameter, Prepared, Site
+from fddbench.interfaces import Floats, Loop, Options, Parameter, Prepared, Site
 
-__all__ = ["PLANT_NEEDS", "SITES", "Motion", "YawRatePlant"]
+__all__ = ["PLANT_NEEDS", "SITES", "LateralPlant", "Motion", "YawRatePlant"]
 
-PLANT_NEEDS = (
-    *("sites", "parameters", "refused_parameters", "manoeuvres", "states", "constants", "draws"),
-    *("actuators", "travel", "prepare", "start", "step"),
-)
+PLANT_NEEDS = ("sites", "parameters", "refused_parameters", "manoeuvres", "loop")
 """What a class must have to be a `YawRatePlant`."""
 
 SITES = tuple(
@@ -57,17 +54,27 @@ class Motion:
 
 
 class YawRatePlant(Protocol):
-    """An aircraft that the loop of the benchmark can fly; a class made from ``(sample_s, substeps)``.
-
-    It is a block whose step is fed with the positions of the 13 surfaces [deg] (rudder, four ailerons, eight spoilers), the
-    lateral gust [m/s] and the number of the sample, and gives its `Motion`.
-    """
+    """An aircraft that the benchmark can fly: what there is to choose about it, and the loop that it flies in."""
 
     about: str
     sites: tuple[Site, ...]
     parameters: tuple[Parameter, ...]
     refused_parameters: Mapping[str, str]
     manoeuvres: Mapping[str, float]
+
+    def loop(self, options: Options) -> Loop:
+        """Closed loop for these options; a class method, for campaigns choose classes."""
+        ...
+
+
+class LateralPlant(Protocol):
+    """An aircraft that `fddbench.benchmarks.yaw_rate.loop.LateralLoop` can fly; made from ``(sample_s, substeps)``.
+
+    It is a block whose step is fed with the positions of the 13 surfaces [deg] (rudder, four ailerons, eight spoilers), the
+    lateral gust [m/s] and the number of the sample, and gives its `Motion`.
+    """
+
+    sites: tuple[Site, ...]
     states: Layout[Any]
     constants: Layout[Any]
     draws: Draws[Any]

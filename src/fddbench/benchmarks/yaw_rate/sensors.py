@@ -23,12 +23,19 @@ class Noise:
         Each yaw-rate sensor, and the roll rate [deg/s].
     beta_deg, phi_deg : float
         Sideslip and bank angle [deg].
+    alpha_deg, theta_deg, q_deg_s, n_z_g : float
+        Of an aircraft with six degrees of freedom: each incidence and load-factor sensor [deg, g], pitch angle [deg] and pitch
+        rate [deg/s].
     """
 
     r_deg_s: float
     beta_deg: float
     p_deg_s: float
     phi_deg: float
+    alpha_deg: float = 0.0
+    theta_deg: float = 0.0
+    q_deg_s: float = 0.0
+    n_z_g: float = 0.0
 
 
 @record
@@ -96,7 +103,16 @@ class Sensors:
 
 PRESETS: Mapping[str, Noise] = {
     # at 100 Hz; our choice for the reproduction campaigns
-    "white": Noise(r_deg_s=0.01, beta_deg=0.02, p_deg_s=0.02, phi_deg=0.02),
+    "white": Noise(
+        r_deg_s=0.01,
+        beta_deg=0.02,
+        p_deg_s=0.02,
+        phi_deg=0.02,
+        alpha_deg=0.02,
+        theta_deg=0.02,
+        q_deg_s=0.02,
+        n_z_g=0.002,
+    ),
     "ideal": Noise(r_deg_s=0.0, beta_deg=0.0, p_deg_s=0.0, phi_deg=0.0),
 }
 """Sensor sets by their names in campaigns; the first is the default."""

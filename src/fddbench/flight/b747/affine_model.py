@@ -23,7 +23,7 @@ from fddbench.flight.b747.scheduling import BOX, PARAMETERS
 from fddbench.flight.b747.trim import condition, trim
 from fddbench.systems import AffineLpv
 
-__all__ = ["Frozen", "Terms", "Variant", "affine_model", "evaluated", "frozen", "slope", "terms"]
+__all__ = ["Frozen", "Terms", "Variant", "affine_model", "evaluated", "frozen", "per_alphadot", "slope", "terms"]
 
 Variant = Literal["fold", "approx"]
 Terms = Mapping[tuple[int, int], Mapping[int, Row]]
@@ -82,11 +82,10 @@ def terms(own: Aircraft, held: Frozen, variant: Variant) -> tuple[Terms, Terms]:
     """Entries of A and B that are not zero, for the rows of an aircraft."""
     A, B = _forces(own, held)
     moments = _moments(own, held)
-    per_alphadot = _moment_scale(own) * _GEOMETRY["chord_m"] * own.c_m_ratio * own.c_m_alphadot
     if variant == "fold":
-        moments[0][_Q, _Q][2] = moments[0][_Q, _Q][2] + per_alphadot
+        moments[0][_Q, _Q][2] = moments[0][_Q, _Q][2] + per_alphadot(own)
     else:
-        share = per_alphadot * held.q_by_v_pa_s_m
+        share = per_alphadot(own) * held.q_by_v_pa_s_m
         for matrix, lift_row in zip(moments, (A, B), strict=True):
             for (row, column), entry in lift_row.items():
                 if row == _ALPHA:
@@ -94,6 +93,11 @@ def terms(own: Aircraft, held: Frozen, variant: Variant) -> tuple[Terms, Terms]:
                     for j, value in entry.items():
                         place[j] = place.get(j, 0.0) + share * value
     return {**A, **moments[0]}, {**B, **moments[1]}
+
+
+def per_alphadot(own: Aircraft) -> Row:
+    """Pitch acceleration per alphadot and per Q/V [m/(Pa s^2)]."""
+    return _moment_scale(own) * _GEOMETRY["chord_m"] * own.c_m_ratio * own.c_m_alphadot
 
 
 _Entries = dict[tuple[int, int], dict[int, Row]]

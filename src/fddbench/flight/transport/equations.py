@@ -16,10 +16,11 @@ from fddbench.flight.atmosphere import GRAVITY_M_S2
 from fddbench.flight.transport.aerodynamics import Controls, Flow, lateral, longitudinal
 from fddbench.flight.transport.air import AirAround
 from fddbench.flight.transport.aircraft import Aircraft
+from fddbench.flight.wind import AirMotion
 
 __all__ = [
-    "ROWS", "Body", "Forces", "State", "Wind", "attitude", "derivative", "euler_rad", "flow_of", "forces", "gravity",
-    "normalised", "thrust_n",
+    "ROWS", "Body", "Forces", "State", "attitude", "derivative", "euler_rad", "flow_of", "forces", "gravity",
+    "normalised", "thrust_n", "to_earth",
 ]  # fmt: skip
 
 _GAMMA_R = 1.4 * 287.05287
@@ -72,18 +73,6 @@ class Body:
     one_c_n: Row
 
 
-@record
-class Wind:
-    """Air that moves: its velocity [m/s] and rates [rad/s] in body axes, (n_cases,) each."""
-
-    u: Row
-    v: Row
-    w: Row
-    p: Row
-    q: Row
-    r: Row
-
-
 class Forces(NamedTuple):
     """Force over mass without gravity [m/s^2], moments about the centre of gravity [N m]; how the air meets it."""
 
@@ -111,9 +100,11 @@ def thrust_n(aircraft: Aircraft, density_kg_m3: Row, mach: Row) -> Row:
     return (thrust.sea_level_n / _SEA_LEVEL_KG_M3) * density_kg_m3 * (1.0 - thrust.per_root_mach * np.sqrt(mach))
 
 
-def flow_of(aircraft: Aircraft, x: State, wind: Wind, density_kg_m3: Row, temperature_k: Row) -> tuple[Flow, Row, Row]:
+def flow_of(
+    aircraft: Aircraft, x: State, wind: AirMotion, density_kg_m3: Row, temperature_k: Row
+) -> tuple[Flow, Row, Row]:
     """How the air meets the aircraft; squared speed in the plane of symmetry [m^2/s^2] and true airspeed [m/s] beside it."""
-    u, v, w = x.u - wind.u, x.v - wind.v, x.w - wind.w
+    u, v, w = x.u - wind.u_m_s, x.v - wind.v_m_s, x.w - wind.w_m_s
     plane = u * u + w * w
     squared = plane + v * v
     speed, in_plane = np.sqrt(squared), np.sqrt(plane)
@@ -128,15 +119,15 @@ def flow_of(aircraft: Aircraft, x: State, wind: Wind, density_kg_m3: Row, temper
         mach=np.sqrt(mach_squared),
         mach_squared=mach_squared,
         pressure_pa=(0.5 * density_kg_m3) * squared,
-        p=span * (x.p - wind.p),
-        q=chord * (x.q - wind.q),
-        r=span * (x.r - wind.r),
+        p=span * (x.p - wind.p_rad_s),
+        q=chord * (x.q - wind.q_rad_s),
+        r=span * (x.r - wind.r_rad_s),
     )
     return flow, plane, chord
 
 
 def forces(
-    aircraft: Aircraft, body: Body, air: AirAround, x: State, controls: Controls, wind: Wind, thrust_ratio: Row
+    aircraft: Aircraft, body: Body, air: AirAround, x: State, controls: Controls, wind: AirMotion, thrust_ratio: Row
 ) -> Forces:
     """Forces of air and engines, and moments about the centre of gravity."""
     density, temperature = air.at(x.altitude)
@@ -152,7 +143,7 @@ def forces(
     # incidence changes with the accelerations of this instant; the air itself is held
     u_dot = a_x + g_x + x.r * x.v - x.q * x.w
     w_dot = a_z + g_z + x.q * x.u - x.p * x.v
-    alpha_dot = ((x.u - wind.u) * w_dot - (x.w - wind.w) * u_dot) / plane
+    alpha_dot = ((x.u - wind.u_m_s) * w_dot - (x.w - wind.w_m_s) * u_dot) / plane
     c_m = body.one_c_m * (along.c_m + aircraft.pitch.c_m_alpha_dot * (chord * alpha_dot))
     span_area, chord_area = area * aircraft.geometry.span_m, area * aircraft.geometry.chord_m
     return Forces(
@@ -167,7 +158,7 @@ def forces(
 
 
 def derivative(
-    aircraft: Aircraft, body: Body, air: AirAround, rows: Rows, controls: Controls, wind: Wind, thrust_ratio: Row
+    aircraft: Aircraft, body: Body, air: AirAround, rows: Rows, controls: Controls, wind: AirMotion, thrust_ratio: Row
 ) -> Rows:
     """``xdot`` of the rows of `State`, (13, n_cases), with surfaces, wind and engines held."""
     x = State(*rows)
@@ -176,7 +167,7 @@ def derivative(
     roll = f.roll + body.i_xz * (x.p * x.q) + (body.i_yy - body.i_zz) * (x.q * x.r)
     yaw = f.yaw - body.i_xz * (x.q * x.r) + (body.i_xx - body.i_yy) * (x.p * x.q)
     pitch = f.pitch + (body.i_zz - body.i_xx) * (x.p * x.r) - body.i_xz * (x.p * x.p - x.r * x.r)
-    north, east, down = _to_earth(x)
+    north, east, down = to_earth(x)
     return np.stack(
         [
             f.x + g_x + x.r * x.v - x.q * x.w,
@@ -196,7 +187,7 @@ def derivative(
     )
 
 
-def _to_earth(x: State) -> tuple[Row, Row, Row]:
+def to_earth(x: State) -> tuple[Row, Row, Row]:
     """Velocity north, east and down [m/s]: ``v + 2 q x (q x v + q0 v)`` with the vector part of the attitude."""
     a = x.q2 * x.w - x.q3 * x.v + x.q0 * x.u
     b = x.q3 * x.u - x.q1 * x.w + x.q0 * x.v

@@ -10,7 +10,8 @@ from fddbench.flight.transport.aerodynamics import Controls
 from fddbench.flight.transport.air import air_around
 from fddbench.flight.transport.aircraft import Aircraft
 from fddbench.flight.transport.equations import Body, attitude, derivative
-from fddbench.flight.transport.trim import Trim, still
+from fddbench.flight.transport.trim import Trim
+from fddbench.flight.wind import still
 
 __all__ = ["INPUTS", "LATERAL", "LONGITUDINAL", "STATES", "Linear", "linearised"]
 

@@ -11,10 +11,11 @@ from fddbench.flight.atmosphere import GRAVITY_M_S2
 from fddbench.flight.transport.aerodynamics import Controls, lift_slope
 from fddbench.flight.transport.air import air_around
 from fddbench.flight.transport.aircraft import Aircraft
-from fddbench.flight.transport.equations import Body, Wind, derivative, thrust_n
+from fddbench.flight.transport.equations import Body, derivative, thrust_n
+from fddbench.flight.wind import still
 from fddbench.units import RAD_PER_DEG
 
-__all__ = ["Trim", "neutral", "residual", "still", "trim"]
+__all__ = ["Trim", "neutral", "residual", "trim"]
 
 _STEPS, _MOVE = 6, 1e-6
 
@@ -35,12 +36,6 @@ class Trim(NamedTuple):
         speed = (self.v_tas_m_s * cos(self.alpha_rad), zero, self.v_tas_m_s * sin(self.alpha_rad))
         attitude = (cos(half), zero, sin(half), zero)
         return np.stack([*speed, zero, zero, zero, *attitude, zero, zero, self.altitude_m + zero])
-
-
-def still(like: Row) -> Wind:
-    """No wind."""
-    zero = np.zeros_like(like)
-    return Wind(u=zero, v=zero, w=zero, p=zero, q=zero, r=zero)
 
 
 def neutral(stabiliser_rad: Row) -> Controls:

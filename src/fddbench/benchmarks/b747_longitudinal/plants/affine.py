@@ -14,7 +14,7 @@ from fddbench.benchmarks.b747_longitudinal.plants.longitudinal import (
 )
 from fddbench.blocks.integrate import rk4
 from fddbench.blocks.layout import Nothing, Row, Rows
-from fddbench.flight.b747.affine_model import Variant, evaluated, frozen, slope, terms
+from fddbench.flight.b747.affine_model import Variant, evaluated, frozen, per_alphadot, slope, terms
 from fddbench.flight.b747.airframe import Aircraft
 from fddbench.flight.b747.dynamics import airflow
 from fddbench.flight.b747.scheduling import parameters
@@ -57,7 +57,10 @@ class Affine(Longitudinal):
         A, B = (evaluated(entries, rho) for entries in terms(c.aircraft, frozen(), self.variant))
         u = np.stack([*inputs, np.ones_like(inputs[0])])
         none = np.zeros_like(air.q_rad_s)
-        gust = np.stack([(1.0 - A[0, 1]) * air.q_rad_s, -A[1, 1] * air.q_rad_s, none, none, none])
+        # alphadot is that over ground, so the gust's rotation has no part in its moment
+        q_by_v = rho[1] if self.variant == "fold" else frozen().q_by_v_pa_s_m
+        damping = A[1, 1] - per_alphadot(c.aircraft) * q_by_v
+        gust = np.stack([(1.0 - A[0, 1]) * air.q_rad_s, -damping * air.q_rad_s, none, none, none])
 
         def rate(x: Rows) -> Rows:
             return slope(A, B, x, u) + gust

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from fddbench.benchmarks.yaw_rate.loop import LateralLoop
 from fddbench.benchmarks.yaw_rate.manoeuvres import DURATIONS_S, KNOTS, bank_commands
 from fddbench.benchmarks.yaw_rate.parameters import PARAMETERS, REFUSED
 from fddbench.benchmarks.yaw_rate.plant import SITES, Motion
@@ -16,7 +17,7 @@ from fddbench.flight.actuators import Actuators
 from fddbench.flight.atmosphere import true_airspeed_m_s
 from fddbench.flight.envelope import infeasible_reasons
 from fddbench.flight.lateral_lpv import SCHEDULING, derivatives, lateral_lpv
-from fddbench.interfaces import Floats, Parameter, Prepared, Site
+from fddbench.interfaces import Floats, Options, Parameter, Prepared, Site
 from fddbench.units import DEG_PER_RAD
 
 __all__ = ["LateralLpvPlant", "rudder_travel_deg"]
@@ -78,7 +79,7 @@ def rudder_travel_deg(v_cas_kt: Row) -> Row:
 
 
 class LateralLpvPlant:
-    """The published lateral LPV model, see `fddbench.benchmarks.yaw_rate.plant.YawRatePlant`."""
+    """The published lateral LPV model, see `fddbench.benchmarks.yaw_rate.plant.LateralPlant`."""
 
     about = "published lateral LPV model with 13 surfaces"
     sites: tuple[Site, ...] = SITES
@@ -98,6 +99,12 @@ class LateralLpvPlant:
 
     def __init__(self, sample_s: float, substeps: int) -> None:
         self.sample_s, self.substeps = sample_s, substeps
+
+    @classmethod
+    def loop(cls, options: Options) -> LateralLoop:
+        """The loop it flies in."""
+        chosen, plant = options.chosen, cls(options.sample_s, options.substeps)
+        return LateralLoop(plant, plant.sites, chosen["voter"](), chosen["sensors"], chosen["wind"], options)
 
     def actuators(self) -> Actuators:
         """Actuators of the 13 surfaces."""

@@ -1,0 +1,20 @@
+"""What differs from flight to flight with six degrees of freedom: deltas in all axes."""
+
+from fddbench.benchmarks.yaw_rate.parameters import PARAMETERS as LATERAL
+from fddbench.interfaces import Parameter
+
+__all__ = ["PARAMETERS"]
+
+PARAMETERS: tuple[Parameter, ...] = (
+    *LATERAL,
+    *(
+        Parameter(
+            name=f"delta_c_{axis}_percent",
+            about=f"change of the total {what} in body axes; detectors and law keep 0",
+            default=0.0,
+            low=-50.0,
+            high=50.0,
+        )
+        for axis, what in (("x", "axial force C_X"), ("z", "normal force C_Z"), ("m", "pitching moment C_m"))
+    ),
+)
