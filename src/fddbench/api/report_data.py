@@ -43,6 +43,7 @@ def report_data(folder: Path) -> ReportData:
         name: in_words(detector_load(detector, assembly.loop.bus, timed=False))
         for name, detector in assembly.detectors.items()
     }
+    motion = getattr(campaign.plant, "motion", ())
     chosen = sampled_cases(rows, seed=campaign.seed)
     return ReportData(
         campaign=content,
@@ -61,11 +62,12 @@ def report_data(folder: Path) -> ReportData:
             }
             for d in campaign.designs
         ],
-        recordings=list(replay_campaign(campaign, chosen, seconds=_seconds(rows), signals=bench.shown)),
+        recordings=list(replay_campaign(campaign, chosen, seconds=_seconds(rows), signals=(*bench.shown, *motion))),
         published=published_for(content, getattr(bench, "published", "")),
         iterations=iterations_for(getattr(bench, "iterations", "")),
         envelope_axes=getattr(bench, "envelope_axes", ()),
         choices=tuple(campaign.choices),
+        motion=motion,
         in_sample=campaign.in_sample,
         limits_from=bench.limits_from,
         partial=found.sentence if found.partial else "",

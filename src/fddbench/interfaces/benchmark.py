@@ -107,7 +107,10 @@ class Detectability:
 
 
 class Plant(Protocol):
-    """What flies: its parameters, what it refuses, what it can do; a benchmark with a single one may be its own plant."""
+    """What flies: its parameters, what it refuses, what it can do; a benchmark with a single one may be its own plant.
+
+    For the report it may have ``motion``, names of signals that show how a manoeuvre is flown (none otherwise).
+    """
 
     sites: tuple[Site, ...]
     parameters: tuple[Parameter, ...]

@@ -13,6 +13,7 @@ from fddbench.metrics.alarms import summarize_alarms
 from fddbench.metrics.summary import summarize
 from fddbench.reporting import detectability, figures, headlines, signals, tables
 from fddbench.reporting.guarantees import guarantee_lines
+from fddbench.reporting.motion import motion_picture
 from fddbench.reporting.published import Iterations, Published
 
 __all__ = ["ReportData", "page_html", "write_page"]
@@ -47,6 +48,8 @@ class ReportData:
         Keys of what the campaign chose on the benchmark.
     envelope_axes : sequence of pairs of str
         Parameters that belong on the two axes of a picture of the envelope.
+    motion : sequence of str
+        Signals that show how a manoeuvre is flown, in the pictures of healthy scenarios.
     in_sample : sequence of str
         Detectors that were tuned on these flights.
     partial : str
@@ -66,6 +69,7 @@ class ReportData:
     limits_from: str = ""
     choices: Sequence[str] = ()
     envelope_axes: Sequence[tuple[str, str]] = ()
+    motion: Sequence[str] = ()
     in_sample: Sequence[str] = ()
     partial: str = ""
     detectable: pd.DataFrame | None = None
@@ -117,6 +121,7 @@ def _content(report: ReportData) -> dict[str, Any]:
         "compared": compared,
         "curves": figures.detection_curves(rows),
         "pictures": [p for r in report.recordings if r.cases for p in [_picture(r, rows)] if p["png"] is not None],
+        "motions": _motions(report.recordings, report.motion),
         **_detectability(report.detectable, alarms),
         "envelope": figures.envelope(rows, report.envelope_axes),
         "reasons": reasons[:_MOST_REASONS],
@@ -153,6 +158,13 @@ def _picture(recording: Recording, rows: pd.DataFrame) -> dict[str, Any]:
         "worst": ", ".join(f"{name} {case}" for name, case in zip(detectors, worst, strict=False)),
         "png": signals.recording_picture(recording, rows),
     }
+
+
+def _motions(recordings: Sequence[Recording], names: Sequence[str]) -> list[dict[str, Any]]:
+    """How the flights of healthy scenarios move."""
+    healthy = [recording for recording in recordings if recording.onset_s is None]
+    found = [(recording, motion_picture(recording, names)) for recording in healthy]
+    return [{"scenario": r.scenario, "shown": len(r.cases), "png": png} for r, png in found if png is not None]
 
 
 def _onsets(recording: Recording) -> str | None:

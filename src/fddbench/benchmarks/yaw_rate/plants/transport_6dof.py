@@ -13,6 +13,7 @@ from fddbench.benchmarks.yaw_rate.transport.needs import reasons, sizes
 from fddbench.benchmarks.yaw_rate.transport.parameters import PARAMETERS
 from fddbench.benchmarks.yaw_rate.transport.plant import BODY, PlantConstants, PlantState
 from fddbench.benchmarks.yaw_rate.transport.profiles import DURATIONS_S, number_of
+from fddbench.benchmarks.yaw_rate.transport.seeing import MOTION
 from fddbench.blocks.block import NO_DRAWS
 from fddbench.blocks.functions import cos
 from fddbench.blocks.integrate import rk4
@@ -46,6 +47,7 @@ class Transport6Dof:
     parameters: tuple[Parameter, ...] = PARAMETERS
     refused_parameters: Mapping[str, str] = {}
     manoeuvres: Mapping[str, float] = DURATIONS_S
+    motion = MOTION
     aircraft: Aircraft = twin_jet()
     gains: Schedule = shipped_law()
     states = Layout(PlantState(rigid=ROWS))

@@ -16,7 +16,7 @@ from fddbench.flight.transport.limits import highest_alpha_rad
 from fddbench.flight.transport.motion import Motion
 from fddbench.units import DEG_PER_RAD, RAD_PER_DEG
 
-__all__ = ["TRUTH", "VOTED", "Voted", "departed", "measured", "sensed", "signals", "truth"]
+__all__ = ["MOTION", "TRUTH", "VOTED", "Voted", "departed", "measured", "sensed", "signals", "truth"]
 
 TRUTH = (
     *(
@@ -31,6 +31,20 @@ TRUTH = (
     ),
     *("theta_true_deg", "alpha_true_deg", "q_true_deg_s", "n_z_true_g", "altitude_true_ft", "v_cas_true_kt", "mach"),
 )
+MOTION = (
+    *(
+        "phi_true_deg",
+        "beta_true_deg",
+        "p_true_deg_s",
+        "r_true_deg_s",
+        "psi_deg",
+        "y_m",
+        "theta_true_deg",
+        "alpha_true_deg",
+    ),
+    *("n_z_true_g", "v_cas_true_kt", "altitude_true_ft", "thrust_ratio"),
+)
+"""What shows how a manoeuvre is flown."""
 _MOST_BANK, _MOST_PITCH, _MOST_SIDESLIP = (RAD_PER_DEG * each for each in (90.0, 60.0, 20.0))
 _BEYOND_BUFFET, _BELOW_ZERO_LIFT = RAD_PER_DEG * 8.0, RAD_PER_DEG * 12.0
 
