@@ -1,13 +1,19 @@
 """Winds of the yaw-rate benchmark: lateral for the lateral model, in all six components for the aircraft that has them."""
 
+from collections.abc import Mapping
+
 from fddbench.flight.dryden import SIX_COMPONENT_WINDS
-from fddbench.flight.turbulence import WINDS
+from fddbench.flight.one_minus_cosine import OneMinusCosine
+from fddbench.flight.turbulence import WINDS as TURBULENCE
 from fddbench.flight.wind import Wind
 
 __all__ = ["WINDS", "in_six_components"]
 
+WINDS: Mapping[str, Wind] = {**TURBULENCE, "one_minus_cosine": OneMinusCosine("right", onset_s=5.0)}
+"""Winds by their names in campaigns, the default first; the discrete gust comes from the left and is met at 5 s."""
+
 
 def in_six_components(wind: Wind) -> Wind:
-    """The wind of the same name that an aircraft with six degrees of freedom meets; one of one's own flies as it is."""
-    names = [name for name, known in WINDS.items() if known is wind]
+    """The wind of the same name that an aircraft with six degrees of freedom meets; any other flies as it is."""
+    names = [name for name, known in TURBULENCE.items() if known is wind]
     return SIX_COMPONENT_WINDS[names[0]] if names else wind

@@ -115,6 +115,7 @@ class TransportLoop:
             scale_ratio=flights.parameters["gust_scale_ratio"],
             altitude_m=flights.parameters["altitude_ft"] * FT_M,
             span_m=self.plant.aircraft.geometry.span_m,
+            gradient_m=flights.parameters["gust_gradient_m"],
         )
         wind = self.wind.prepare(flights.normals, meets, self.sample_s)
         constants = LoopConstants(plant=plant.constants, wind=wind, faults=self.breaking.prepare(flights.faults))
@@ -181,7 +182,7 @@ class TransportLoop:
         }
         return Sample(
             measured=seen,
-            truth=truth(motion, gust_m_s, orders.bank_rad),
+            truth=truth(motion, gust_m_s, orders.guidance),
             departed=departed(self.plant.aircraft, motion),
             added=added,
             voted=errors,
