@@ -56,7 +56,7 @@ def _places(values: Floats) -> tuple[npt.NDArray[np.int64], list[str]]:
     if len(few) <= _BINS + 1:
         return np.searchsorted(few, values), [f"{value:.6g}" for value in few]
     edges = np.linspace(few[0], few[-1], _BINS + 1)
-    names = [f"{edges[i]:.4g} … {edges[i + 1]:.4g}" for i in range(_BINS)]
+    names = [f"{_number(edges[i])} … {_number(edges[i + 1])}" for i in range(_BINS)]
     return np.clip(np.searchsorted(edges, values, side="right") - 1, 0, _BINS - 1), names
 
 
