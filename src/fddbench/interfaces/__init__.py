@@ -21,14 +21,17 @@ from fddbench.interfaces.fault import Fault, FaultBlock, Instant
 from fddbench.interfaces.floats import NEVER, Floats
 from fddbench.interfaces.loop import FlightFaults, Flights, Loop, Prepared, Sample
 from fddbench.interfaces.recording import QUANTILES, Bands, Recording
+from fddbench.interfaces.scheduling import AffineModel, Channel, Scheduling
 from fddbench.interfaces.site import Site
 
 __all__ = [
     "NEVER",
     "QUANTILES",
+    "AffineModel",
     "Bands",
     "Benchmark",
     "Bus",
+    "Channel",
     "Choice",
     "Detectability",
     "Detector",
@@ -46,6 +49,7 @@ __all__ = [
     "Recording",
     "Response",
     "Sample",
+    "Scheduling",
     "SinglePlant",
     "Site",
     "Tunable",

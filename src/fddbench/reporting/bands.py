@@ -103,24 +103,25 @@ def _fill(axes: "Axes", time_s: Floats, quantiles: Floats, tone: str) -> None:
 def _draw_response(axes: "Axes", bands: Bands, panel: Response) -> None:
     _fill(axes, bands.time_s, bands.signals[panel.signal], "#56789a")
     axes.plot(bands.time_s, bands.one[panel.signal], color=INK, lw=1.2)
-    if panel.command in bands.one:
-        axes.plot(bands.time_s, bands.one[panel.command], color="#d55e00", lw=1.1, ls=(0, (4, 2)))
     low, high = axes.get_ylim()
-    for name in panel.limits:
-        if name in bands.one:
-            axes.plot(bands.time_s, bands.one[name], color=WARNING, lw=1.0, ls=(0, (1, 1)))
-    _within(axes, low, high, [bands.one[name] for name in panel.limits if name in bands.one])
+    beside = [name for name in (panel.command, *panel.limits) if name in bands.one]
+    for name in beside:
+        look: dict[str, Any] = {"color": WARNING, "lw": 1.0, "ls": (0, (1, 1))}
+        if name == panel.command:
+            look = {"color": "#d55e00", "lw": 1.1, "ls": (0, (4, 2))}
+        axes.plot(bands.time_s, bands.one[name], **look)
+    axes.set_ylim(*_within(low, high, [bands.one[name] for name in beside]))
     axes.set(ylabel=label(f"p_{panel.signal}"), xlabel="time [s]")
     _frame(axes, bands)
 
 
-def _within(axes: "Axes", low: float, high: float, limits: Sequence[Floats]) -> None:
-    """A limit far away would make the response flat: it is only shown where it is near."""
+def _within(low: float, high: float, others: Sequence[Floats]) -> tuple[float, float]:
+    """Ends of an axis that shows commands and limits where they are near: one far away, a stick at its stop, would flatten all."""
     room = 0.6 * (high - low)
     near = [
-        value for limit in limits for value in (np.nanmin(limit), np.nanmax(limit)) if low - room < value < high + room
+        value for other in others for value in (np.nanmin(other), np.nanmax(other)) if low - room < value < high + room
     ]
-    axes.set_ylim(min([low, *near]), max([high, *near]))
+    return float(min([low, *near])), float(max([high, *near]))
 
 
 def _draw_shown(axes: "Axes", bands: Bands, detector: str, names: Sequence[str], number: int) -> None:
