@@ -116,7 +116,7 @@ def _draw_response(axes: "Axes", bands: Bands, panel: Response) -> None:
 
 
 def _within(low: float, high: float, others: Sequence[Floats]) -> tuple[float, float]:
-    """Ends of an axis that shows commands and limits where they are near: one far away, a stick at its stop, would flatten all."""
+    """Ends of an axis with commands and limits where they are near: a stick at its stop would flatten all."""
     room = 0.6 * (high - low)
     near = [
         value for other in others for value in (np.nanmin(other), np.nanmax(other)) if low - room < value < high + room
