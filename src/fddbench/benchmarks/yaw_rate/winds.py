@@ -9,11 +9,13 @@ from fddbench.flight.wind import Wind
 
 __all__ = ["WINDS", "in_six_components"]
 
-WINDS: Mapping[str, Wind] = {**TURBULENCE, "one_minus_cosine": OneMinusCosine("right", onset_s=5.0)}
-"""Winds by their names in campaigns, the default first; the discrete gust comes from the left and is met at 5 s."""
+_GUST_S = 5.0
+
+WINDS: Mapping[str, Wind] = {**TURBULENCE, "one_minus_cosine": OneMinusCosine("right", _GUST_S)}
+"""Winds by their names in campaigns, the default first; the discrete gust comes from the left at 5 s."""
 
 
 def in_six_components(wind: Wind) -> Wind:
-    """The wind of the same name that an aircraft with six degrees of freedom meets; any other flies as it is."""
-    names = [name for name, known in TURBULENCE.items() if known is wind]
-    return SIX_COMPONENT_WINDS[names[0]] if names else wind
+    """The wind of the same name that an aircraft with six degrees of freedom meets; others fly as they are."""
+    names = [name for name, known in WINDS.items() if known is wind]
+    return SIX_COMPONENT_WINDS.get(names[0], wind) if names else wind

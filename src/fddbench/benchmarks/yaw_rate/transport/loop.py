@@ -114,8 +114,8 @@ class TransportLoop:
             v_tas_m_s=plant.constants.v_tas_m_s,
             scale_ratio=flights.parameters["gust_scale_ratio"],
             altitude_m=flights.parameters["altitude_ft"] * FT_M,
-            span_m=self.plant.aircraft.geometry.span_m,
             gradient_m=flights.parameters["gust_gradient_m"],
+            span_m=self.plant.aircraft.geometry.span_m,
         )
         wind = self.wind.prepare(flights.normals, meets, self.sample_s)
         constants = LoopConstants(plant=plant.constants, wind=wind, faults=self.breaking.prepare(flights.faults))

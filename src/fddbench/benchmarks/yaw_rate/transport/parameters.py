@@ -1,4 +1,4 @@
-"""What differs from flight to flight with six degrees of freedom: deltas in all axes, and how long a discrete gust is."""
+"""What differs from flight to flight with six degrees of freedom: deltas in all axes."""
 
 from fddbench.benchmarks.yaw_rate.parameters import PARAMETERS as LATERAL
 from fddbench.interfaces import Parameter
@@ -7,6 +7,13 @@ __all__ = ["PARAMETERS"]
 
 PARAMETERS: tuple[Parameter, ...] = (
     *LATERAL,
+    Parameter(
+        name="gust_gradient_m",
+        about="distance from the beginning of the one-minus-cosine gust to its peak",
+        default=107.0,
+        low=9.0,
+        high=107.0,
+    ),
     *(
         Parameter(
             name=f"delta_c_{axis}_percent",
@@ -16,12 +23,5 @@ PARAMETERS: tuple[Parameter, ...] = (
             high=50.0,
         )
         for axis, what in (("x", "axial force C_X"), ("z", "normal force C_Z"), ("m", "pitching moment C_m"))
-    ),
-    Parameter(
-        name="gust_gradient_m",
-        about="distance from the beginning of a discrete gust to its peak",
-        default=107.0,
-        low=9.0,
-        high=107.0,
     ),
 )
