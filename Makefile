@@ -8,6 +8,8 @@ BIN := $(VENV)/bin
 demo: $(VENV)/ready
 	$(BIN)/fddbench run campaigns/smoke.yaml --fresh
 	$(BIN)/fddbench report results/smoke
+	$(BIN)/fddbench run campaigns/smoke_6dof.yaml --fresh
+	$(BIN)/fddbench report results/smoke_6dof
 
 test: $(VENV)/ready-dev lint
 	$(BIN)/python -m pytest

@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from fddbench.interfaces import Recording
+from fddbench.interfaces import Bands, Recording, Response
 from fddbench.metrics.alarms import summarize_alarms
 from fddbench.metrics.summary import summarize
-from fddbench.reporting import detectability, figures, headlines, signals, tables
+from fddbench.reporting import detectability, failures, figures, headlines, infeasible, signals, tables
+from fddbench.reporting.bands import band_pictures
+from fddbench.reporting.beside import beside
 from fddbench.reporting.guarantees import guarantee_lines
-from fddbench.reporting.motion import motion_picture
 from fddbench.reporting.published import Iterations, Published
 
 __all__ = ["ReportData", "page_html", "write_page"]
@@ -38,8 +39,8 @@ class ReportData:
         Per detector name, kind, source, about, load (of a step, in words), sha256.
     recordings : sequence of Recording
         Re-flown cases, one recording per scenario.
-    published : Published or None
-        Printed table to stand beside ours.
+    published : sequence of Published
+        Printed tables to stand beside ours.
     iterations : Iterations or None
         Printed course of an optimisation, and ours.
     limits_from : str
@@ -48,14 +49,18 @@ class ReportData:
         Keys of what the campaign chose on the benchmark.
     envelope_axes : sequence of pairs of str
         Parameters that belong on the two axes of a picture of the envelope.
-    motion : sequence of str
-        Signals that show how a manoeuvre is flown, in the pictures of healthy scenarios.
     in_sample : sequence of str
         Detectors that were tuned on these flights.
     partial : str
         How many flights of how many the folder holds, "" when all.
     detectable : DataFrame or None
         Maps of detectability, lines of `fddbench.metrics.detectable.DETECTABLE`.
+    bands : sequence of Bands
+        All flights of scenarios as quantiles over time, where the campaign asks for them.
+    responses, shown : sequences
+        Panels of healthy flights, as the plant says, and signals of the others, as the benchmark does.
+    folder : str
+        The folder of results as a reader would write it.
     """
 
     campaign: Mapping[str, Any]
@@ -64,15 +69,18 @@ class ReportData:
     provenance: Mapping[str, str]
     designs: Sequence[Mapping[str, Any]]
     recordings: Sequence[Recording]
-    published: Published | None = None
+    published: Sequence[Published] = ()
     iterations: Iterations | None = None
     limits_from: str = ""
     choices: Sequence[str] = ()
     envelope_axes: Sequence[tuple[str, str]] = ()
-    motion: Sequence[str] = ()
     in_sample: Sequence[str] = ()
     partial: str = ""
     detectable: pd.DataFrame | None = None
+    bands: Sequence[Bands] = ()
+    responses: Sequence[Response] = ()
+    shown: Sequence[str] = ()
+    folder: str = "results"
 
 
 def write_page(report: ReportData, output: Path) -> None:
@@ -100,7 +108,7 @@ def _content(report: ReportData) -> dict[str, Any]:
     rows = report.rows
     summary = summarize(rows, in_sample=report.in_sample)
     alarms = summarize_alarms(rows, in_sample=report.in_sample)
-    compared = tables.published_lines(summary, report.published) if report.published else []
+    compared = [found for table in report.published if (found := beside(summary, table)) is not None]
     reasons = tables.reason_lines(rows)
     return {
         "campaign": report.campaign,
@@ -117,12 +125,17 @@ def _content(report: ReportData) -> dict[str, Any]:
         "guarantees": guarantee_lines(rows, report.events, report.designs),
         "iterations": report.iterations,
         "limits_from": report.limits_from,
-        "published": report.published,
         "compared": compared,
         "curves": figures.detection_curves(rows),
         "pictures": [p for r in report.recordings if r.cases for p in [_picture(r, rows)] if p["png"] is not None],
-        "motions": _motions(report.recordings, report.motion),
         **_detectability(report.detectable, alarms),
+        "bands": band_pictures(report.bands, report.responses, report.shown),
+        "failures": failures.failure_tables(rows, report.envelope_axes),
+        "worst_heads": failures.WORST,
+        "worst": failures.worst_lines(rows, report.envelope_axes, report.folder),
+        "infeasible_map": infeasible.infeasible_map(rows, report.envelope_axes),
+        "infeasible_heads": infeasible.INFEASIBLE,
+        "infeasible": infeasible.infeasible_lines(rows, report.envelope_axes),
         "envelope": figures.envelope(rows, report.envelope_axes),
         "reasons": reasons[:_MOST_REASONS],
         "more_reasons": max(len(reasons) - _MOST_REASONS, 0),
@@ -158,13 +171,6 @@ def _picture(recording: Recording, rows: pd.DataFrame) -> dict[str, Any]:
         "worst": ", ".join(f"{name} {case}" for name, case in zip(detectors, worst, strict=False)),
         "png": signals.recording_picture(recording, rows),
     }
-
-
-def _motions(recordings: Sequence[Recording], names: Sequence[str]) -> list[dict[str, Any]]:
-    """How the flights of healthy scenarios move."""
-    healthy = [recording for recording in recordings if recording.onset_s is None]
-    found = [(recording, motion_picture(recording, names)) for recording in healthy]
-    return [{"scenario": r.scenario, "shown": len(r.cases), "png": png} for r, png in found if png is not None]
 
 
 def _onsets(recording: Recording) -> str | None:

@@ -182,7 +182,7 @@ class TransportLoop:
         }
         return Sample(
             measured=seen,
-            truth=truth(motion, gust_m_s, orders.bank_rad),
+            truth=truth(motion, gust_m_s, orders.guidance),
             departed=departed(self.plant.aircraft, motion),
             added=added,
             voted=errors,
