@@ -24,7 +24,7 @@ def test_bins_count_every_decided_faulty_flight_once(rows):
 
 
 def test_of_grid_values_that_vary_together_there_is_one_table(rows):
-    level = rows["run"].astype("int64[pyarrow]") % 3
+    level = rows["run"].to_numpy(dtype=np.int64) % 3
     more = rows.assign(
         p_gust_scale_ratio=level / 2.0, p_mass_error_percent=10.0 * level, p_x_cg_error_percent=-1.0 * level
     )
