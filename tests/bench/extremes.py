@@ -82,7 +82,7 @@ def _short(value: float) -> float:
     return float(f"{value:.3g}")
 
 
-_HEAD = """# What all manoeuvres of transport_6dof attain at the 81 points of Table 5 that can be flown, 60 s each: smallest and largest.
+_HEAD = """# What all manoeuvres of transport_6dof attain at the 81 points of Table 5 that can be flown: smallest, largest.
 # alpha_share: of the way from zero lift to buffet. Made by python -m tests.bench.extremes"""
 
 
