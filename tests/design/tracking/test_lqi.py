@@ -11,7 +11,12 @@ from fddbench.design.tracking.lqi import Tolerances, lqi_law, regulator
 from fddbench.design.tracking.reference import corner_rad_s
 
 TOLERANCES = Tolerances(
-    settling_s=(15.0, 45.0), error=(0.5, 0.7), integral=(1.0, 3.0), pitch_rate_deg_s=2.0, order=(1.0, 8.0)
+    settling_s=(15.0, 45.0),
+    error=(0.5, 0.7),
+    integral=(1.0, 3.0),
+    pitch_rate_deg_s=2.0,
+    order=(1.0, 8.0),
+    speed_filter_s=20.0,
 )
 
 

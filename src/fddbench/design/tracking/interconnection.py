@@ -35,8 +35,8 @@ class Weights:
         Steps of flight path [deg] and speed [m/s].
     disturbance : (2,)
         At the inputs: elevator [deg], thrust [kN].
-    gust_m_s : float
-        Vertical [m/s].
+    gust_m_s : (2,)
+        Down, which turns and lifts the aircraft, and along, which only airspeed shows [m/s].
     noise : (7,)
         Of the integrals [deg s, m] and of `MEASURED`.
     error, integral : (2,)
@@ -50,7 +50,7 @@ class Weights:
     settling_s: tuple[float, float]
     command: tuple[float, float]
     disturbance: tuple[float, float]
-    gust_m_s: float
+    gust_m_s: tuple[float, float]
     noise: tuple[float, ...]
     error: tuple[float, float]
     integral: tuple[float, float]
@@ -78,16 +78,28 @@ def generalised_plant(flying: LinearAircraft, weights: Weights) -> StateSpace:
         "elevator_order": {"u_elevator": 1.0, "d_elevator": w.disturbance[0]},
         "thrust_order": {"u_thrust": 1.0, "d_thrust": w.disturbance[1]},
         "stabiliser": {},
-        "gust": {"d_gust": w.gust_m_s},
+        "gust": {"d_down": w.gust_m_s[0]},
         "flight_path_error": {**commands["flight_path_command"], "flight_path_deg": -1.0},
-        "speed_error": {**commands["speed_command"], "speed_m_s": -1.0},
+        "speed_error": {**commands["speed_command"], "speed_m_s": -1.0, "d_along": -w.gust_m_s[1]},
     }
     seen = zip(KNOWN[2:], ("flight_path_sum", "speed_sum", *MEASURED), noise, w.noise, strict=True)
+    known = {name: {signal: 1.0, n: size} for name, signal, n, size in seen}
+    known["speed_m_s"]["d_along"] = w.gust_m_s[1]
     return wire(
         [flying.block(altitude=False), *ACTUATORS, models(*w.settling_s), integrals, efforts],
         wires | commands,
-        inputs=["c_flight_path", "c_speed", "d_elevator", "d_thrust", "d_gust", *noise, "u_elevator", "u_thrust"],
-        outputs=_tolerated(w) | commands | {name: {signal: 1.0, n: size} for name, signal, n, size in seen},
+        inputs=[
+            "c_flight_path",
+            "c_speed",
+            "d_elevator",
+            "d_thrust",
+            "d_down",
+            "d_along",
+            *noise,
+            "u_elevator",
+            "u_thrust",
+        ],
+        outputs=_tolerated(w) | commands | known,
     )
 
 

@@ -22,15 +22,14 @@ class WeightsEntry(Strict):
 
     Attributes
     ----------
-    settling_s, command, disturbance, error, integral, effort, corner_rad_s : two numbers
-    gust_m_s : float
+    settling_s, command, disturbance, error, integral, effort, corner_rad_s, gust_m_s : two numbers
     noise : seven numbers
     """
 
     settling_s: Pair
     command: Pair
     disturbance: Pair
-    gust_m_s: Positive
+    gust_m_s: Pair
     noise: Noise
     error: Pair
     integral: Pair
@@ -48,7 +47,7 @@ class TolerancesEntry(Strict):
     Attributes
     ----------
     settling_s, error, integral, order : two numbers
-    pitch_rate_deg_s : float
+    pitch_rate_deg_s, speed_filter_s : float
     """
 
     settling_s: Pair
@@ -56,6 +55,7 @@ class TolerancesEntry(Strict):
     integral: Pair
     pitch_rate_deg_s: Positive
     order: Pair
+    speed_filter_s: Positive
 
     def tolerances(self) -> Tolerances:
         """Return them for the synthesis."""

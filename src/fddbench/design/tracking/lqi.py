@@ -1,6 +1,7 @@
 """Linear-quadratic tracking with integral action, and the feedforward that makes responses those of the models.
 
-States of the law are the response models and the integrals of model minus response; the engines' thrust is not fed back.
+States of the law are the response models, speed by a complementary filter (airspeed below its corner, acceleration above, so
+that engines do not chase gusts) and the integrals of model minus response; the engines' thrust is not fed back.
 """
 
 from dataclasses import dataclass
@@ -12,6 +13,7 @@ from fddbench.design.tracking.aircraft import ACTUATORS, LinearAircraft
 from fddbench.design.tracking.interconnection import CONTROLS
 from fddbench.design.tracking.reference import models
 from fddbench.design.tracking.wiring import wire
+from fddbench.flight.atmosphere import GRAVITY_M_S2
 from fddbench.interfaces import Floats
 from fddbench.systems import StateSpace
 
@@ -35,6 +37,8 @@ class Tolerances:
         Pitch rate [deg/s].
     order : (2,)
         Elevator [deg] and thrust [kN].
+    speed_filter_s : float
+        Time constant of the complementary filter of speed [s].
     """
 
     settling_s: tuple[float, float]
@@ -42,13 +46,14 @@ class Tolerances:
     integral: tuple[float, float]
     pitch_rate_deg_s: float
     order: tuple[float, float]
+    speed_filter_s: float
 
 
 def lqi_law(flying: LinearAircraft, tolerances: Tolerances) -> StateSpace:
     """The law for a trim, in deg and kN: ``u = Γ m + Γc c - K (x - Π m - Πc c) - K_i ∫(m - y)``, thrust left out of x.
 
-    Inputs are errors and measured signals, see `fddbench.design.tracking.law`; states are the four of the response models m and
-    two integrals.
+    Inputs are errors and measured signals, `fddbench.benchmarks.b747_longitudinal.laws.law_file.INPUTS`; the integrals are the
+    last two states.
     """
     A, B = _with_engines(flying)
     K, K_i = _gains(A, B, tolerances)
@@ -63,14 +68,16 @@ def lqi_law(flying: LinearAircraft, tolerances: Tolerances) -> StateSpace:
     # inputs of the law: errors, then flight path, acceleration, pitch, pitch rate, speed; command = error + measured
     commands = np.zeros((2, 7))
     commands[0, [0, 2]] = commands[1, [1, 6]] = 1.0
-    state = np.zeros((4, 7))  # alpha = pitch - flight path, q, V, pitch
+    state = np.zeros((4, 7))  # alpha = pitch - flight path, q, pitch; speed comes from its filter
     state[0, [2, 4]] = -1.0, 1.0
-    state[1, 5] = state[2, 6] = state[3, 4] = 1.0
-    A_law, B_law = np.zeros((6, 6)), np.zeros((6, 7))
+    state[1, 5] = state[3, 4] = 1.0
+    A_law, B_law = np.zeros((7, 7)), np.zeros((7, 7))
     A_law[:4, :4], B_law[:4] = model.A, model.B @ commands
-    A_law[4, 0] = A_law[5, 2] = 1.0
-    B_law[4, 2] = B_law[5, 6] = -1.0
-    return StateSpace(A_law, B_law, np.hstack([forward[:, :4], -K_i]), forward[:, 4:] @ commands - K[:, :4] @ state)
+    A_law[4, 4], B_law[4, [3, 6]] = -1.0 / tolerances.speed_filter_s, (GRAVITY_M_S2, 1.0 / tolerances.speed_filter_s)
+    A_law[5, 0] = A_law[6, 2] = 1.0
+    B_law[5, 2] = B_law[6, 6] = -1.0
+    C_law = np.hstack([forward[:, :4], -K[:, [2]], -K_i])
+    return StateSpace(A_law, B_law, C_law, forward[:, 4:] @ commands - K[:, :4] @ state)
 
 
 def _with_engines(flying: LinearAircraft) -> tuple[Floats, Floats]:

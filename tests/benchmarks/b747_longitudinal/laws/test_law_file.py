@@ -33,9 +33,9 @@ def test_a_shipped_law_is_discretised_by_tustin_s_rule(name):
     [
         ({"inputs": ["pitch_deg"]}, "inputs of a law are flight_path_error_deg"),
         ({"A": [[1.0, 2.0], [3.0]]}, "ValueError"),
-        ({"B": [[1.0]]}, r"B needs finite numbers of shape \(6, 7\), got shape \(1, 1\)"),
+        ({"B": [[1.0]]}, r"B needs finite numbers of shape \(7, 7\), got shape \(1, 1\)"),
         ({"handover": {"lead_s": 2.0}}, "handover: {lead_s, lag_s, command_lag_s}"),
-        ({"dynamic_pressure_pa": [2.0, 1.0]}, r"C needs finite numbers of shape \(2, 2, 6\)"),
+        ({"dynamic_pressure_pa": [2.0, 1.0]}, r"C needs finite numbers of shape \(2, 2, 7\)"),
     ],
 )
 def test_what_is_no_law_is_refused(change, message):
