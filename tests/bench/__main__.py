@@ -8,7 +8,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from fddbench.blocks import llvm
-from tests.bench import growth, ratios, whole
+from tests.bench import growth, ratios, six, whole
 from tests.bench.report import HEADER, Line
 
 
@@ -16,7 +16,7 @@ def main() -> None:
     """Print the table line by line."""
     parser = argparse.ArgumentParser(prog="python -m tests.bench", description=__doc__)
     parser.add_argument("--repeats", type=int, default=7, help="turns of every peer (default 7)")
-    parser.add_argument("--only", choices=("ratios", "growth", "whole"), help="one part of the table")
+    parser.add_argument("--only", choices=("ratios", "six", "growth", "whole"), help="one part of the table")
     given = parser.parse_args()
     print("\n".join(_where()), f"\n{HEADER}")
     for line in _lines(given.only, given.repeats):
@@ -27,6 +27,8 @@ def main() -> None:
 def _lines(only: str | None, repeats: int) -> Iterator[Line]:
     if only in {None, "ratios"}:
         yield from ratios.lines(repeats=repeats, turn_s=0.2)
+    if only in {None, "six"}:
+        yield from six.lines(repeats=max(3, repeats // 2), turn_s=0.2)
     if only in {None, "growth"}:
         yield from growth.lines(repeats=max(3, repeats // 2))
     if only in {None, "whole"}:

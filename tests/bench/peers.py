@@ -8,7 +8,7 @@ import numpy as np
 
 from fddbench.blocks import kernel
 from tests.bench import limit, step
-from tests.bench.absent import AbsentError, need
+from tests.bench.absent import need
 from tests.bench.plain import Run
 from tests.bench.translate import translate, transplanted
 
@@ -165,8 +165,3 @@ def jax(state: np.ndarray, constants: np.ndarray) -> Fly:
 
     start, fixed = jnp.asarray(state), jnp.asarray(constants)
     return lambda samples: np.asarray(module.block_until_ready(scan(start, fixed, samples)))
-
-
-def jsbsim(state: np.ndarray, constants: np.ndarray) -> Fly:
-    """A 737 of JSBSim, to be compared with our own 6 degrees of freedom."""
-    raise AbsentError("once the plant with 6 degrees of freedom exists")

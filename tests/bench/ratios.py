@@ -22,7 +22,6 @@ PEERS: tuple[tuple[str, int, float | None, str], ...] = (
     ("python_control", FEW, 300.0, "python-control input_output_response"),
     ("heyoka", WIDE, 1.7, "heyoka cfunc over 2208 runs"),
     ("jax", 256, 3.0, "JAX jit(vmap(lax.scan)), 256 runs, float64"),
-    ("jsbsim", 1, 70.0, "JSBSim stepping its 737"),
 )
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from fddbench import __version__
-from fddbench.cli import commands, designing
+from fddbench.cli import aircraft, commands, designing
 from fddbench.errors import FddbenchError, ResultsWarning
 
 __all__ = ["entry", "main", "parser"]
@@ -66,6 +66,7 @@ def parser() -> argparse.ArgumentParser:
     design.add_argument("--force", action="store_true", help="replace the file when it exists")
     _tune(_add(subs, "tune", designing.tune))
 
+    _modes(_add(subs, "modes", aircraft.modes))
     _add(subs, "list", commands.list_)
     init = _add(subs, "init", commands.init)
     init.add_argument("folder", type=Path, nargs="?", default=Path(), metavar="DIR", help="where to (default: here)")
@@ -103,6 +104,13 @@ def _tune(command: argparse.ArgumentParser) -> None:
         "--output", type=Path, metavar="FILE", help="file to write (default: detectors/DESIGN_tuned.yaml)"
     )
     command.add_argument("--force", action="store_true", help="replace the file when it exists")
+
+
+def _modes(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "aircraft", type=Path, nargs="?", metavar="FILE", help="file of an aircraft (default: the shipped twin-jet)"
+    )
+    command.add_argument("--feasible", action="store_true", help="only the points that it can fly")
 
 
 def _share(text: str) -> float:

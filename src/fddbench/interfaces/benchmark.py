@@ -1,7 +1,8 @@
 """What a benchmark and its plants must offer."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, Protocol
 
 from fddbench.interfaces.fault import Fault
@@ -47,12 +48,16 @@ class Choice:
         only the options.
     needs : sequence of str
         What a member of that family must have.
+    reads : callable, optional
+        Makes an option of a YAML file beside the campaign that is named instead (``plant: mine.yaml``), from its path; raises
+        FddbenchError for one that is none. None: files of data are nothing to choose here.
     """
 
     about: str
     options: Mapping[str, Any]
     family: str = ""
     needs: Sequence[str] = ()
+    reads: Callable[[Path], Any] | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,9 +1,12 @@
 """Contract: a law and a plant of one's own fly from a file beside the campaign."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import yaml
 
+from fddbench.benchmarks.b747_longitudinal.laws import tracking
 from fddbench.campaign.load import read_campaign
 from fddbench.errors import CampaignError
 from fddbench.runner.assembling import assemble
@@ -37,6 +40,18 @@ class Heavy(Nonlinear):
 
 class NoLaw:
     """Nothing."""
+'''
+NUMBERS = '''
+from pathlib import Path
+
+from fddbench.benchmarks.b747_longitudinal.laws.law_file import read_law
+from fddbench.benchmarks.b747_longitudinal.laws.tracking import Tracking
+
+
+class Own(Tracking):
+    """Linear-quadratic, of a file of mine."""
+
+    law = read_law(Path(__file__).with_name("numbers.yaml"))
 '''
 WATCHER = """
 import numpy as np
@@ -99,6 +114,16 @@ def test_a_law_and_a_plant_of_ones_own(write):
     )
     assert np.abs(damped).max() < 0.7 * np.abs(opened).max()
     assert np.abs(heavy[130]) < 0.7 * np.abs(opened[130])
+
+
+def test_a_law_of_numbers_of_ones_own(write, tmp_path):
+    numbers = Path(tracking.__file__).parents[1] / "data" / "law_lqi.yaml"
+    (tmp_path / "numbers.yaml").write_text(numbers.read_text(encoding="utf-8"), encoding="utf-8")
+    (tmp_path / "numbers.py").write_text(NUMBERS, encoding="utf-8")
+    path = write(law="numbers.py:Own")
+    np.testing.assert_array_equal(pitch_rate_deg_s(path), pitch_rate_deg_s(write(law="lqi")))
+    # the numbers travel with the results, like every file that a plug-in reads
+    assert "numbers.yaml" in read_campaign(write(law="numbers.py:Own")).files()
 
 
 def test_a_class_that_is_no_law_is_told_what_is_missing(write):

@@ -31,6 +31,7 @@ class YawRate:
             options={"lateral_lpv": LateralLpvPlant, "transport_6dof": Transport6Dof},
             family="plant",
             needs=PLANT_NEEDS,
+            reads=Transport6Dof.of_file,
         ),
         "voter": Choice(
             about="how the sensors are voted",

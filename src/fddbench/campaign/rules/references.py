@@ -1,6 +1,6 @@
 """Names in a campaign that must exist in its benchmark: choices, manoeuvres, sites, parameters."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -11,6 +11,8 @@ from fddbench.errors import FddbenchError, Mistake, did_you_mean
 from fddbench.interfaces import Benchmark, Choice, Plant
 
 __all__ = ["Chosen", "choose", "default_of", "unknown_names"]
+
+_DATA = (".yaml", ".yml")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,6 +62,8 @@ def _member(key: str, choice: Choice, name: str, benchmark: Benchmark, folder: P
     """What an option is, and the files it came from."""
     if name in choice.options:
         return choice.options[name], {}
+    if choice.reads is not None and name.endswith(_DATA):
+        return _of_data(choice.reads, name, folder)
     own = kinds.known(choice.family) if choice.family else ()
     if name not in own and not (choice.family and kinds.is_file_kind(name)):
         raise FddbenchError(
@@ -72,6 +76,14 @@ def _member(key: str, choice: Choice, name: str, benchmark: Benchmark, folder: P
             f"{name!r} cannot be the {key} of benchmark {benchmark.name!r}: it has no {' and no '.join(missing)}"
         )
     return kind.member, kind.files
+
+
+def _of_data(reads: Callable[[Path], Any], name: str, folder: Path) -> tuple[Any, Mapping[str, bytes]]:
+    """What a file of data beside the campaign says, and the file."""
+    path = folder / name
+    if not path.is_file() or not path.resolve().is_relative_to(folder.resolve()):
+        raise FddbenchError(f"no file {name} in {folder}; a file of data lies beside the campaign that names it")
+    return reads(path), {name: path.read_bytes()}
 
 
 def unknown_names(document: Document, benchmark: Benchmark, plant: Plant) -> Iterator[Mistake]:

@@ -10,7 +10,7 @@ from pydantic import ValidationError
 from fddbench.errors import FddbenchError, did_you_mean
 from fddbench.flight.transport.aircraft import Aircraft
 
-__all__ = ["SHIPPED", "read_aircraft", "twin_jet"]
+__all__ = ["SHIPPED", "read_aircraft", "read_data", "twin_jet"]
 
 SHIPPED = Path(__file__).parent / "data" / "twin_jet.yaml"
 _SLIPS = {
@@ -36,17 +36,23 @@ def read_aircraft(path: Path) -> Aircraft:
     FddbenchError
         A line for each mistake: the file, the name, what is wrong and what is plausible.
     """
+    data = {name: part for name, part in read_data(path).items() if name != "law"}
+    try:
+        return Aircraft.model_validate(data)
+    except ValidationError as error:
+        lines = "\n".join(f"{path}: {_line(each)}" for each in error.errors())
+        raise FddbenchError(f"{lines}\nSee {SHIPPED} for a whole one") from None
+
+
+def read_data(path: Path) -> dict[str, Any]:
+    """What an aircraft's file says, unchecked; beside the aircraft it may have gains as ``law``."""
     try:
         data = yaml.safe_load(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
         raise FddbenchError(f"{path}: cannot be read as the YAML of an aircraft: {error}") from error
     if not isinstance(data, dict):
         raise FddbenchError(f"{path}: an aircraft is a mapping as in {SHIPPED.name}, got {type(data).__name__}")
-    try:
-        return Aircraft.model_validate(data)
-    except ValidationError as error:
-        lines = "\n".join(f"{path}: {_line(each)}" for each in error.errors())
-        raise FddbenchError(f"{lines}\nSee {SHIPPED} for a whole one") from None
+    return data
 
 
 @cache

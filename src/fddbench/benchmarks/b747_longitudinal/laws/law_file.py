@@ -11,6 +11,8 @@ from fddbench.blocks.tustin import tustin
 from fddbench.errors import DesignError
 from fddbench.interfaces import Floats
 
+_LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
 __all__ = ["INPUTS", "OUTPUTS", "DiscreteLaw", "Handover", "TrackingLaw", "law_of", "read_law"]
 
 INPUTS = (
@@ -90,7 +92,7 @@ def read_law(path: Path) -> TrackingLaw:
     DesignError
         A key is missing or unknown, signals are not `INPUTS` and `OUTPUTS`, or matrices do not fit.
     """
-    data = yaml.safe_load(path.read_text(encoding="utf-8"))
+    data = yaml.load(path.read_text(encoding="utf-8"), Loader=_LOADER)
     if not isinstance(data, dict) or data.get("kind") != "tracking_law" or not isinstance(data.get("gains"), dict):
         raise DesignError(f"{path} holds no law: expected kind: tracking_law, and gains")
     return law_of(data["gains"], where=f"{path}: gains")

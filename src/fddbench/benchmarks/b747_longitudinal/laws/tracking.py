@@ -1,6 +1,5 @@
 """The block that flies a tracking law from its file, and the laws that are shipped."""
 
-from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, ClassVar
@@ -25,17 +24,14 @@ from fddbench.units import DEG_PER_RAD
 
 __all__ = ["Hinf", "Lqi", "Scheduled", "Tracking"]
 
-_SMOOTHING_S = 10.0
-"""Airspeed is that of the air data over times longer than this, and integrated acceleration over shorter ones [s]; ours."""
 _SHIPPED = Path(__file__).parents[1] / "data"
 
 
 @record
 class TrackingState:
-    """State of the law, and smoothed airspeed; of the handover: elevator order before it, its lead, command as it passes."""
+    """State of the law; of the handover: elevator order before it, its lead, command as it passes, all in deg."""
 
     law: Rows
-    speed_m_s: Row
     elevator_before_deg: Row
     lead_deg: Row
     command_deg: Row
@@ -52,28 +48,43 @@ class TrackingConstants:
 class Tracking:
     """``u = C x + D y`` about the trim, see `fddbench.benchmarks.b747_longitudinal.laws.law_file.TrackingLaw`.
 
-    Thrust does not answer every gust along the path: the airspeed that is followed is smoothed by the acceleration over ground.
     While the elevator is declared, its order stays where it was, and what the law orders beyond goes to the stabiliser, ahead
     by the lead of the file; the flight-path command then passes a lag, because the stabiliser is slow.
 
-    Parameters
+    A law of one's own is a class in a file beside the campaign::
+
+        class Mine(Tracking):
+            law = read_law(Path(__file__).with_name("my_law.yaml"))
+
+    where ``fddbench design my_law.yaml`` makes the numbers from the recipe in the file.
+
+    Attributes
     ----------
     law : TrackingLaw
+        Of the class.
+
+    Parameters
+    ----------
     sample_s : float
         Sample time [s].
     """
 
+    law: ClassVar[TrackingLaw]
+    states: Layout[TrackingState]
     constants = Layout(TrackingConstants(trim=TRIM_POINT, stabiliser_ratio=ROW))
     draws: Draws[Any] = NO_DRAWS
 
-    def __init__(self, law: TrackingLaw, sample_s: float) -> None:
-        self.sample_s, self.discrete, self.handover = sample_s, law.discrete(sample_s), law.handover
-        self.states = Layout(
-            TrackingState(law=len(law.A), speed_m_s=ROW, elevator_before_deg=ROW, lead_deg=ROW, command_deg=ROW)
-        )
-        lags_s = (_SMOOTHING_S, law.handover.lag_s, law.handover.command_lag_s)
-        self.speed_share, self.lead_share, self.command_share = (
-            float(1.0 - exp(np.array(-sample_s / lag_s))) for lag_s in lags_s
+    def __init_subclass__(cls) -> None:
+        """A class with a law has as many states as that has, and four for the handover."""
+        if "law" in vars(cls):
+            rows = TrackingState(law=len(cls.law.A), elevator_before_deg=ROW, lead_deg=ROW, command_deg=ROW)
+            cls.states = Layout(rows)
+
+    def __init__(self, sample_s: float) -> None:
+        law = self.law
+        self.discrete, self.handover = law.discrete(sample_s), law.handover
+        self.lead_share, self.command_share = (
+            float(1.0 - exp(np.array(-sample_s / lag_s))) for lag_s in (law.handover.lag_s, law.handover.command_lag_s)
         )
         gains = np.concatenate([self.discrete.C, self.discrete.D], axis=2)
         self.grid = Grid(law.dynamic_pressure_pa) if len(law.dynamic_pressure_pa) else None
@@ -90,13 +101,7 @@ class Tracking:
 
     def start(self, c: TrackingConstants) -> TrackingState:
         """Nothing to correct."""
-        return TrackingState(
-            law=0.0,
-            speed_m_s=c.trim.v_tas_m_s,
-            elevator_before_deg=c.trim.elevator_deg,
-            lead_deg=0.0,
-            command_deg=0.0,
-        )
+        return TrackingState(law=0.0, elevator_before_deg=c.trim.elevator_deg, lead_deg=0.0, command_deg=0.0)
 
     def step(
         self,
@@ -111,7 +116,7 @@ class Tracking:
         del n
         declared, way = elevator_declared > 0.0, self.handover
         gamma_deg = np.where(declared, x.command_deg, command.gamma_deg)
-        y = _deviations(c.trim, seen, x.speed_m_s, gamma_deg, command.speed_m_s)
+        y = _deviations(c.trim, seen, gamma_deg, command.speed_m_s)
         elevator, thrust = self._ordered(x.law, y, seen)
         orders = np.stack([c.trim.elevator_deg + elevator, c.trim.thrust_n + thrust])
         stopped = np.stack(_stopped(orders, c, x.elevator_before_deg, declared))
@@ -120,9 +125,6 @@ class Tracking:
         moved = product(column(self.discrete.A), x.law) + product(column(self.discrete.B), y)
         after = TrackingState(
             law=moved + product(column(self.discrete.E), stopped - orders),
-            speed_m_s=x.speed_m_s
-            + self.sample_s * seen.acceleration_m_s2
-            + self.speed_share * (seen.v_tas_m_s - x.speed_m_s),
             elevator_before_deg=np.where(declared, x.elevator_before_deg, stopped[0]),
             lead_deg=np.where(declared, x.lead_deg + self.lead_share * (beyond - x.lead_deg), 0.0),
             command_deg=np.where(
@@ -164,9 +166,9 @@ def _stopped(orders: Rows, c: TrackingConstants, before_deg: Row, declared: Row)
     return elevator_deg, np.minimum(np.maximum(orders[1], 0.0), c.trim.thrust_highest_n)
 
 
-def _deviations(trim: TrimPoint, seen: SimpleNamespace, smoothed_m_s: Row, gamma_deg: Row, speed_m_s: Row) -> Rows:
+def _deviations(trim: TrimPoint, seen: SimpleNamespace, gamma_deg: Row, speed_m_s: Row) -> Rows:
     """Inputs of a law, (7, n_cases), see `fddbench.benchmarks.b747_longitudinal.laws.law_file.INPUTS`."""
-    path_deg, speed = seen.gamma_deg, smoothed_m_s - trim.v_tas_m_s
+    path_deg, speed = seen.gamma_deg, seen.v_tas_m_s - trim.v_tas_m_s
     return np.stack(
         [
             gamma_deg - path_deg,
@@ -180,33 +182,19 @@ def _deviations(trim: TrimPoint, seen: SimpleNamespace, smoothed_m_s: Row, gamma
     )
 
 
-class Shipped(Tracking):
-    """A law of this package."""
-
-    file: ClassVar[str]
-
-    def __init__(self, sample_s: float) -> None:
-        super().__init__(_shipped(self.file), sample_s)
-
-
-@cache
-def _shipped(file: str) -> TrackingLaw:
-    return read_law(_SHIPPED / file)
-
-
-class Hinf(Shipped):
+class Hinf(Tracking):
     """H∞ tracking law of one linear model, that of 7000 m and 241 m/s, Fig. 2."""
 
-    file = "law_hinf.yaml"
+    law = read_law(_SHIPPED / "law_hinf.yaml")
 
 
-class Lqi(Shipped):
+class Lqi(Tracking):
     """Linear-quadratic law with integral action for the same point."""
 
-    file = "law_lqi.yaml"
+    law = read_law(_SHIPPED / "law_lqi.yaml")
 
 
-class Scheduled(Shipped):
+class Scheduled(Tracking):
     """Linear-quadratic laws of points of the envelope, over dynamic pressure."""
 
-    file = "law_scheduled.yaml"
+    law = read_law(_SHIPPED / "law_scheduled.yaml")

@@ -1,6 +1,7 @@
 """The public twin-jet with six degrees of freedom, for the whole envelope."""
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 import numpy as np
 
@@ -23,7 +24,7 @@ from fddbench.flight.transport.aircraft import Aircraft
 from fddbench.flight.transport.body import AXES, body_of
 from fddbench.flight.transport.equations import ROWS, State, derivative, forces, normalised
 from fddbench.flight.transport.motion import Motion, motion_of
-from fddbench.flight.transport.reading import twin_jet
+from fddbench.flight.transport.reading import read_aircraft, read_data, twin_jet
 from fddbench.flight.transport.trim import trim
 from fddbench.flight.wind import AirMotion
 from fddbench.interfaces import Floats, Options, Parameter, Prepared, Site
@@ -35,11 +36,9 @@ __all__ = ["Transport6Dof"]
 class Transport6Dof:
     """The twin-jet in closed loop.
 
-    A subclass beside a campaign may fly another aircraft of this kind, with other gains, or add fault sites on yaw rate,
-    incidence, load factor, surfaces, elevators and the stabiliser; all are class attributes::
-
-        class Mine(Transport6Dof):
-            aircraft = read_aircraft(Path(__file__).with_name("mine.yaml"))
+    A campaign flies an aircraft of one's own with ``plant: mine.yaml``, a changed copy of `data/twin_jet.yaml` beside it, which
+    may have gains of its own as ``law``. A subclass may add fault sites on yaw rate, incidence, load factor, surfaces,
+    elevators and the stabiliser.
     """
 
     about = "public twin-jet with 6 degrees of freedom for the whole envelope, 16 surfaces, engines, protections"
@@ -65,6 +64,20 @@ class Transport6Dof:
     def loop(cls, options: Options) -> TransportLoop:
         """The loop it flies in."""
         return TransportLoop(cls(options.sample_s, options.substeps), options)
+
+    @classmethod
+    def of_file(cls, path: Path) -> type["Transport6Dof"]:
+        """The plant of an aircraft's file, flown with its own gains where it has any.
+
+        Raises
+        ------
+        FddbenchError
+            What is wrong in the file.
+        """
+        aircraft, law = read_aircraft(path), read_data(path).get("law")
+        gains = cls.gains if law is None else Schedule(law)
+        own = {"aircraft": aircraft, "gains": gains, "about": aircraft.about, "__doc__": aircraft.about}
+        return type(path.stem, (cls,), own)
 
     def prepare(self, parameters: Mapping[str, Floats], manoeuvres: Sequence[str]) -> Prepared:
         """Level trim, what is measured, and what the manoeuvre needs of each flight."""

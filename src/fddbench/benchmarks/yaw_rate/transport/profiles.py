@@ -119,7 +119,11 @@ MANOEUVRES: Mapping[str, Mapping[str, Points]] = {
         "altitude_held": _off(45),
         "stick": _steps((45, FULL_G), (50, 0)),
     },
-    "n_z_limitation_1": {**_BY_HAND, "stick": _steps((5, FULL_G), (9, -FULL_G), (11, 0))},
+    "n_z_limitation_1": {
+        **_BY_HAND,
+        "stick": _steps((5, FULL_G), (9, -FULL_G), (11, 0)),
+        "theta_held": _steps((14, 1)),  # then back to the attitude of the trim
+    },
     "speed_mach_protection": {
         **_BY_HAND,
         "autothrust": _off(5),

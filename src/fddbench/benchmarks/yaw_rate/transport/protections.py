@@ -21,7 +21,8 @@ _SLOW_KT, _NOT_SLOW_KT = 200.0, 220.0
 _ABOVE_TRIM = RAD_PER_DEG * 1.0
 _SHARE = 0.85
 """Where the incidence is protected, as a share of the way from zero lift to buffet."""
-_LEAD_S, _PITCH_GAIN = 0.5, 0.8
+_ALPHA_GAIN, _LEAD_S, _PITCH_GAIN = 0.5, 1.0, 0.8
+"""Gain 1 and a lead of 0.5 s hold the incidence too, but let the elevator work by up to 6 deg at the slowest points."""
 _SPEED_MARGIN_KT, _MACH_MARGIN, _SPEED_LEAD_S, _SPEED_GAIN_G_KT = 6.0, 0.01, 6.0, 0.05
 
 
@@ -50,7 +51,7 @@ def bounds(aircraft: Aircraft, s: Sensed, stick_g: Row, trim_alpha_rad: Row) -> 
     per_rad = s.pressure_pa * (area / GRAVITY_M_S2) * lift_slope(aircraft, s.mach * s.mach) / s.mass_kg
     cos_theta = cos(s.theta_rad)
     alpha_dot = s.q_rad_s - (GRAVITY_M_S2 * (s.n_z_g - cos_theta * cos(s.phi_rad))) / s.v_tas_m_s
-    by_alpha = s.n_z_g + per_rad * (highest - s.alpha_rad - _LEAD_S * alpha_dot)
+    by_alpha = s.n_z_g + (_ALPHA_GAIN * per_rad) * (highest - s.alpha_rad - _LEAD_S * alpha_dot)
     per_pitch = (_PITCH_GAIN / GRAVITY_M_S2) * s.v_tas_m_s
     fast = np.minimum(np.maximum((s.v_cas_kt - _SLOW_KT) * (1.0 / (_NOT_SLOW_KT - _SLOW_KT)), 0.0), 1.0)
     up = _UP_SLOW + fast * (_UP - _UP_SLOW)
