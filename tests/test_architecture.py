@@ -67,7 +67,7 @@ def test_parts_and_numbers_are_addressed_by_name(why):
     assert not found
 
 
-SHIPPED = ("benchmark", "fault", "voter", "detector", "recipe")
+SHIPPED = ("benchmark", "fault", "voter", "detector", "recipe", "scheduling")
 
 
 def test_families_without_a_shipped_member_are_parts_of_a_benchmark():
@@ -120,7 +120,13 @@ def _used(family: str, parts: set[str]) -> set[str]:
     return found
 
 
-FAMILY_FOLDERS = [("faults", "fault"), ("voting", "voter"), ("benchmarks", "benchmark"), ("detection", "detector")]
+FAMILY_FOLDERS = [
+    ("faults", "fault"),
+    ("voting", "voter"),
+    ("benchmarks", "benchmark"),
+    ("detection", "detector"),
+    ("scheduling", "scheduling"),
+]
 
 
 @pytest.mark.parametrize(("folder", "family"), FAMILY_FOLDERS)

@@ -27,6 +27,7 @@ FAMILIES: Mapping[str, tuple[str, ...]] = {
     "wind": (),
     "law": (),
     "detector": ("Gains", "from_design"),
+    "scheduling": ("about", "signals", "parameters", "rho"),
     "recipe": ("spelled_out", "in_folder", "make"),
 }
 """Family → what a member must have whoever uses it; a choice of a benchmark may ask for more (`Choice.needs`)."""

@@ -7,8 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from fddbench.blocks import kernel, llvm
 from fddbench.blocks.kernel import Addresses, build
-from fddbench.blocks.merge import check_alike, expand_state, merged, shrink_state, start_keys
+from fddbench.blocks.merge import check_alike, expand_state, merged, shared, shrink_state, start_keys
 from fddbench.blocks.program import Program, trace
 from fddbench.blocks.ring import ring
 from fddbench.errors import FddbenchError
@@ -184,3 +185,22 @@ def test_streams_in_any_order(same: Any) -> None:
         for streams in (((4, "scenario"), (2, "flight")), ((2, "flight"), (4, "scenario")))
     ]  # fmt: skip
     assert same(rows[0], np.concatenate([rows[1][4:], rows[1][:4]]))
+
+
+def test_what_was_merged_once_is_merged_again_in_one_go() -> None:
+    """A kernel from the cache knows the classes only."""
+    program = _bank([(0.1, 1.0), (0.2, 1.0), (0.1, 1.0)]).keep("state", "finished")
+    fewer, classes = merged(program, _keys(_start(3)[0]))
+    assert len(set(classes)) < len(classes)
+    assert shared(program, classes).hash == fewer.hash
+    assert program.only("state").hash == program.keep("state").hash
+
+
+@pytest.mark.skipif(not llvm.available(), reason="no llvmlite")
+def test_a_kernel_is_merged_once(monkeypatch: pytest.MonkeyPatch, tmp_path: Any, same: Any) -> None:
+    monkeypatch.setenv("FDDBENCH_CACHE", str(tmp_path))
+    program, (state, _) = _bank([(0.1, 1.0), (0.2, 1.0), (0.1, 1.0)]), _start(3)
+    first = _flown(program, 3, merge=_keys(state))
+    monkeypatch.setattr(kernel, "merged", None)
+    again = _flown(program, 3, merge=_keys(state))
+    assert same(again.state, first.state)

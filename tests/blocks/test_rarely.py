@@ -43,12 +43,12 @@ def _program(step: Any = _faults) -> Program:
     return trace(step, state=N_STATE, constants=2, normals=12, sample=0)
 
 
-def _flown(first: Any, **how: Any) -> Any:
+def _flown(first: Any, step: Any = _faults, **how: Any) -> Any:
     n_cases = len(first)
     state = np.random.default_rng(0).normal(size=(N_STATE, n_cases))
     constants = np.stack([first, np.linspace(0.5, 2.0, n_cases)])
     where = Addresses(key=9, run=np.arange(n_cases), flight=1, scenario=5)
-    kernel = build(_program(), streams=STREAMS, recorded=("seen",), **how)
+    kernel = build(_program(step), streams=STREAMS, recorded=("seen",), **how)
     return kernel.fly(state, constants, np.full(n_cases, 40), where, first=0, end=40)
 
 
@@ -97,6 +97,80 @@ def _unsaid(state: Any, constants: Any, normals: Any, sample: Any) -> dict[str, 
 @pytest.mark.parametrize("step", [_cheap, _both, _unsaid])
 def test_no_branch_where_it_would_spare_nothing(step: Any) -> None:
     assert "skip" not in [line.op for line in _plan(step).sample]
+
+
+def _rows(state: Any, constants: Any, normals: Any, sample: Any) -> dict[str, Any]:
+    """Rows that seldom change: two that change places, one that others ask for, one that asks, one not worth a branch."""
+    first = constants[0]
+    turn = rarely((sample >= first) & (sample < first + 3.0))
+    left = np.where(turn, _wave(state[1] + normals[0]), state[0])
+    right = np.where(turn, _wave(state[0]) * constants[1], state[1])
+    often = 0.5 * state[2] + left + 0.1 * state[3]  # asks for a new row, and for an old one that seldom changes
+    later = np.where(rarely((sample == first + 1.0) | (often > 1.2)), _wave(often) + state[2] + left, state[3])
+    plain = np.where(rarely(sample > first), state[4] + 1.0, state[4])
+    return {"state": np.stack([left, right, often, later, plain]), "seen": (left - state[0])[np.newaxis]}
+
+
+def _mixed(state: Any, constants: Any, normals: Any, sample: Any) -> dict[str, Any]:
+    """Two rows become the same; one asks for what another makes of a new row; an old one that always changes is read late."""
+    turn = rarely((sample >= constants[0]) & (sample < constants[0] + 3.0))
+    both = np.where(turn, _wave(state[3] + normals[0]), state[0])
+    left = np.where(turn, _wave(state[3] * 2.0), state[1])
+    right = np.where(turn, _wave(0.5 * state[4] + left), state[2])
+    half = 0.5 * state[4]
+    late = _wave(half) + state[3]  # the old one, long after the new one is known
+    return {"state": np.stack([both, left, right, half, 0.3 * both + late]), "seen": both[np.newaxis]}
+
+
+def _always(state: Any, constants: Any, normals: Any, sample: Any) -> dict[str, Any]:
+    """Rows that change in every sample, read behind a branch alone, and where another has its place."""
+    turn = rarely((sample >= constants[0]) & (sample < constants[0] + 3.0))
+    kept = np.where(turn, _wave(state[3]) + normals[0], state[0])
+    alone = np.where(turn, _wave(state[1] + 2.0), state[4])
+    again = np.where(turn, _wave(state[2] + 1.0), kept)
+    return {"state": np.stack([kept, 0.1 * sample, kept, again, alone]), "seen": kept[np.newaxis]}
+
+
+@pytest.mark.parametrize("step", [_rows, _mixed, _always])
+def test_rows_that_seldom_change_fly_as_in_numpy(where: Any, same: Any, step: Any) -> None:
+    first = np.concatenate([np.full(32, 1e9), np.arange(37.0), np.where(np.arange(37) % 16 == 3, 4.0, 1e9)])
+    expected, found = _flown(first, step, backend="numpy"), _flown(first, step, **where)
+    assert same(found.state, expected.state)
+    assert same(found.recorded["seen"], expected.recorded["seen"])
+
+
+def test_rows_that_seldom_change_are_neither_read_nor_written_in_other_samples() -> None:
+    program = trace(lambda state, constants, sample: _lone(state, constants, sample), state=3, constants=1, sample=0)
+    plan = lower(Spec(program=with_draws(program), streams=()))
+    ops = [line.op for line in plan.sample]
+    start, end = ops.index("skip"), ops.index("resume")
+    behind = [(line.op, line.value) for line in plan.sample[start:end] if line.op in {"load", "store"}]
+    assert {("load", 1), ("store", 0), ("store", 1)} <= set(behind)
+    outside = [(line.op, line.value) for line in (*plan.sample[:start], *plan.sample[end:])]
+    # the new row 0 is asked for behind the branch, and fetched there
+    assert [line for line in outside if line[0] in {"load", "store"} and line[1] < 3] == [
+        ("load", 2),
+        ("load", 0),
+        ("store", 2),
+    ]
+    assert "join" not in ops
+
+
+def _lone(state: Any, constants: Any, sample: Any) -> dict[str, Any]:
+    turn = rarely(sample == constants[0])
+    shown, hidden = (np.where(turn, _wave(state[j] + state[2]), state[j]) for j in (0, 1))
+    return {"state": np.stack([shown, hidden, 0.5 * state[2] + shown])}
+
+
+def test_a_new_row_is_stored_when_the_old_one_has_been_read() -> None:
+    """Not at the end of the sample, until when it would need a register."""
+    program = trace(lambda state: {"state": np.stack([*(_wave(row) for row in state[:4]), state[0]])}, state=5)
+    lines = lower(Spec(program=program, streams=())).sample
+    assert [line.op for line in lines[-3:]] != ["store"] * 3
+    stores = {line.value: place for place, line in enumerate(lines) if line.op == "store"}
+    loads = {line.value: place for place, line in enumerate(lines) if line.op == "load"}
+    assert all(stores[row] > loads[row] for row in range(4))
+    assert min(stores.values()) < 0.6 * len(lines)
 
 
 def test_it_is_faster_not_to_compute() -> None:

@@ -27,12 +27,8 @@ CAMPAIGNS = {
 DESIGNS = sorted(path.stem for path in gallery.folder("detectors").glob("*.yaml"))
 
 
-PENDING = {"b747_longitudinal"}
-"""Its campaigns come with its filters."""
-
-
 def test_every_benchmark_has_a_campaign():
-    assert set(CAMPAIGNS) | PENDING == set(kinds.known("benchmark"))
+    assert set(CAMPAIGNS) == set(kinds.known("benchmark"))
 
 
 def _all_designs(benchmark):

@@ -1,4 +1,4 @@
-"""Compiled objects on disk: a kernel is compiled once per machine and loaded in milliseconds afterwards."""
+"""What was made of a kernel, on disk: it is merged and compiled once per machine and loaded in milliseconds afterwards."""
 
 import os
 import tempfile

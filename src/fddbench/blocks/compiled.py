@@ -1,5 +1,6 @@
 """The kernel in machine code: arrays in, padded to whole vectors, and one call."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -8,6 +9,7 @@ import numpy.typing as npt
 from fddbench.blocks import draws, llvm
 from fddbench.blocks.flown import Addresses, Floats, Flown, Integers, Streams, by_output
 from fddbench.blocks.lower import Spec, lower
+from fddbench.blocks.merge import shared
 from fddbench.blocks.program import Program
 from fddbench.blocks.rewrite import canonical
 from fddbench.blocks.targets.llvm import frame
@@ -17,23 +19,29 @@ __all__ = ["Compiled"]
 
 
 class Compiled:
-    """Kernel in machine code; a call releases the GIL, so threads fly chunks side by side."""
+    """Kernel in machine code; a call releases the GIL, so threads fly chunks side by side.
+
+    With `classes` of equal state rows (`merge.merged`) it flies one row a class; the program is merged only where it has
+    not been compiled before.
+    """
 
     def __init__(
         self, program: Program, streams: Streams, recorded: tuple[str, ...],
-        target: str = "host", lanes: int | None = None,
+        target: str = "host", lanes: int | None = None, classes: Sequence[int] | None = None,
     ) -> None:  # fmt: skip
         machine = llvm.machine(target)
         if machine is None:
             raise FddbenchError(f"this processor does not run code for {target!r}")
         self.lanes = lanes or machine.lanes
         self._program, self._streams, self._recorded, self._machine = program, streams, recorded, machine
-        identity = f"{program.hash} {streams} {recorded} {self.lanes} {machine.rounds}"
+        self._classes = classes
+        identity = f"{program.hash} {classes} {streams} {recorded} {self.lanes} {machine.rounds}"
         self._code = llvm.load(identity, self.text, machine)
 
     def text(self) -> str:
         """LLVM module of the kernel."""
-        spec = Spec(program=draws.with_draws(canonical(self._program)), streams=self._streams, recorded=self._recorded)
+        program = self._program if self._classes is None else shared(self._program, self._classes)
+        spec = Spec(program=draws.with_draws(canonical(program)), streams=self._streams, recorded=self._recorded)
         return frame.write(lower(spec), self.lanes, rounds=self._machine.rounds)
 
     def fly(

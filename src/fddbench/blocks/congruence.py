@@ -3,8 +3,7 @@
 from collections import defaultdict
 from collections.abc import Hashable, Sequence
 from heapq import heapify, heappop, heappush
-
-import numpy as np
+from struct import pack
 
 from fddbench.blocks.program import Program
 from fddbench.blocks.simplify import COMMUTATIVE
@@ -39,9 +38,7 @@ def refined(program: Program, keys: Sequence[Hashable]) -> list[int]:
     """
     classes = _numbered(keys)
     values = _Values(program, classes)
-    changed = list(range(len(classes)))
-    while changed:
-        values.update(changed)
+    while True:
         parts: dict[tuple[int, int], list[int]] = defaultdict(list)
         for row, node in enumerate(program.outputs["state"]):
             parts[classes[row], values.of[node]].append(row)
@@ -55,7 +52,9 @@ def refined(program: Program, keys: Sequence[Hashable]) -> list[int]:
                 for row in rows:
                     classes[row] = new
                 changed += rows
-    return _numbered(classes)
+        if not changed:
+            return _numbered(classes)
+        values.update(changed)
 
 
 class _Values:
@@ -78,12 +77,12 @@ class _Values:
                 self._users[argument].append(j)
             if op == "input" and value[0] == "state":
                 self._rows[value[1]] = j
-        self._everything = list(range(len(program.nodes)))
+        for j in range(len(program.nodes)):
+            self.of[j] = self._number(j)
 
     def update(self, rows: Sequence[int]) -> None:
-        """Number anew what depends on these state rows; the first time everything."""
-        left = self._everything or [self._rows[row] for row in rows if row in self._rows]
-        self._everything = []
+        """Number anew what depends on these state rows."""
+        left = [self._rows[row] for row in rows if row in self._rows]
         heapify(left)
         last = -1
         while left:
@@ -100,7 +99,7 @@ class _Values:
         if op == "input" and value[0] == "state":
             key: Hashable = ("state", self._classes[value[1]])
         elif op == "literal":
-            key = ("literal", np.float64(value).tobytes())
+            key = ("literal", pack("<d", value))
         else:
             numbers = [self.of[a] for a in arguments]
             key = (op, tuple(sorted(numbers) if op in COMMUTATIVE else numbers), value)

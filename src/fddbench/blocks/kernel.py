@@ -1,13 +1,14 @@
 """Flying a chunk of cases over many samples: the same call for the NumPy interpreter and for compiled code."""
 
+import json
 from collections.abc import Hashable, Sequence
 
-from fddbench.blocks import llvm
+from fddbench.blocks import cache, llvm
 from fddbench.blocks.compiled import Compiled
 from fddbench.blocks.flown import Addresses, Floats, Flown, Integers, Kernel, Streams
 from fddbench.blocks.interpreted import Interpreted
 from fddbench.blocks.merge import check_alike, expand_state, merged, shrink_state
-from fddbench.blocks.program import Program
+from fddbench.blocks.program import Program, prune
 from fddbench.errors import FddbenchError
 
 __all__ = ["Addresses", "Compiled", "Flown", "Interpreted", "Kernel", "Merged", "build"]
@@ -43,23 +44,36 @@ def build(
     """
     if backend not in {"auto", "llvm", "numpy"}:
         raise FddbenchError(f"no back end is called {backend!r}; known: auto, llvm, numpy")
-    if backend == "llvm" and not llvm.available():
+    compiles = backend != "numpy" and llvm.available()
+    if backend == "llvm" and not compiles:
         raise FddbenchError(
             "the back end 'llvm' needs llvmlite 0.45 or later: pip install llvmlite, or --backend numpy (the same bits)"
         )
     if streams and (consumers or fault_consumers):
         raise FddbenchError("draws are told twice; give streams, or consumers and fault_consumers")
     streams = (*streams, *((c, "flight") for c in consumers), *((c, "scenario") for c in fault_consumers))
-    kept = program.keep("state", *(["finished"] if "finished" in program.outputs else []), *recorded)
-    classes = None
-    if merge is not None:
-        kept, classes = merged(kept, merge)
-    kernel: Kernel = (
-        Interpreted(kept, streams, recorded)
-        if backend == "numpy" or not llvm.available()
-        else Compiled(kept, streams, recorded, target, lanes)
-    )
-    return kernel if classes is None else Merged(kernel, classes)
+    names = ("state", *(["finished"] if "finished" in program.outputs else []), *recorded)
+    if not compiles:
+        kept = program.keep(*names)
+        fewer, classes = (kept, None) if merge is None else merged(kept, merge)
+        interpreted = Interpreted(fewer, streams, recorded)
+        return interpreted if classes is None else Merged(interpreted, classes)
+    chosen = program.only(*names)
+    if merge is None:
+        return Compiled(chosen, streams, recorded, target, lanes)
+    classes = _classes(chosen, merge)
+    return Merged(Compiled(chosen, streams, recorded, target, lanes, classes=classes), classes)
+
+
+def _classes(program: Program, keys: Sequence[Hashable]) -> list[int]:
+    """Classes of `merged`, found once per program and keys."""
+    name = cache.key("classes", program.hash, repr(keys), cache.source())
+    body = cache.load(name)
+    if body is None:
+        body = json.dumps(merged(prune(program), keys)[1]).encode()
+        cache.store(name, body)
+    classes: list[int] = json.loads(body)
+    return classes
 
 
 class Merged:

@@ -11,7 +11,7 @@ from fddbench.blocks.program import Program, prune
 from fddbench.blocks.rewrite import rebuilt
 from fddbench.errors import FddbenchError
 
-__all__ = ["check_alike", "expand_state", "merged", "shrink_state", "start_keys"]
+__all__ = ["check_alike", "expand_state", "merged", "shared", "shrink_state", "start_keys"]
 
 Floats = npt.NDArray[np.float64]
 
@@ -64,7 +64,7 @@ def merged(program: Program, keys: Sequence[Hashable]) -> tuple[Program, list[in
     if len(set(classes)) == len(classes):
         return program, classes
     # what has become equal may be simplified, and then more may be equal
-    fewer, further = merged(_shared(program, classes), [keys[row] for row in _first_rows(classes)])
+    fewer, further = merged(shared(program, classes), [keys[row] for row in _first_rows(classes)])
     return fewer, [further[number] for number in classes]
 
 
@@ -106,8 +106,8 @@ def _first_rows(classes: Sequence[int]) -> list[int]:
     return [first[number] for number in range(len(first))]
 
 
-def _shared(program: Program, classes: Sequence[int]) -> Program:
-    """The program with one state row a class."""
+def shared(program: Program, classes: Sequence[int]) -> Program:
+    """The program with one state row a class, as `merged` gives it."""
     first = _first_rows(classes)
     outputs = {**program.outputs, "state": tuple(program.outputs["state"][row] for row in first)}
     fewer = replace(program, inputs={**program.inputs, "state": len(first)}, outputs=outputs)

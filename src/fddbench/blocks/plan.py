@@ -30,9 +30,9 @@ MEMORY = {
     "index": "whole number of a, which lies in the table that it is meant for, as an integer",
     "gather": "entry a, an index, of the table number `value`",
     "call": "repeat number `value[0]` on the workspace from vector `value[1]` on",
-    "skip": "if a is false in every lane, go on behind `resume`; at most one in a plan",
-    "resume": "end of what may be skipped; nothing from inside is read behind it but by `join`",
-    "join": "a, a register from inside, where it was computed, 0 where it was skipped; follows `resume` and other joins",
+    "skip": "if a is false in every lane, go on behind the next `resume`; `value` numbers them from 0",
+    "resume": "end of what may be skipped, number `value`; nothing from inside is read behind it but by `join`",
+    "join": "a, a register from inside, where it was computed, 0 where it was skipped; follows `resume`, number `value`",
     "record": "register a stored as recorded row `value`, not-a-number where the flight is over",
 }
 """Instructions beside the primitives of `OPERATIONS`: what each does with ``a, b`` (registers) and its ``value``."""

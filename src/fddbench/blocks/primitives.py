@@ -93,7 +93,8 @@ def rarely(condition: Rows) -> Rows:
     """The condition itself, which is said to be seldom true, as that a fault is there.
 
     Compiled, what only ``np.where(rarely(condition), a, b)`` needs for its ``a`` is left out in every sample in which no
-    such condition is true in any of the cases that fly side by side. The result is the same; the saying is about speed.
+    such condition is true in any of the cases that fly side by side. The result is the same; the saying is about speed. A
+    state that becomes ``np.where(rarely(condition), new, old)`` is then not even read or written.
     """
     return condition
 

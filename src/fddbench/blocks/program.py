@@ -53,7 +53,11 @@ class Program:
 
     def keep(self, *names: str) -> "Program":
         """The same program with these outputs only, and nothing computed that they do not need."""
-        return prune(replace(self, outputs={name: self.outputs[name] for name in names}))
+        return prune(self.only(*names))
+
+    def only(self, *names: str) -> "Program":
+        """The same program with these outputs only; the same hash as `keep`, without looking at what they need."""
+        return replace(self, outputs={name: self.outputs[name] for name in names})
 
 
 def trace(function: Callable[..., Mapping[str, Any]], /, **inputs: int) -> Program:
@@ -117,9 +121,13 @@ def prune(program: Program) -> Program:
 def digests(nodes: Sequence[Node]) -> list[bytes]:
     """What each node computes, in 16 bytes: a hash of its operation and of its arguments' digests, not of their numbers."""
     found: list[bytes] = []
+    plain = {
+        op: repr((op, None)).encode() for op in {node.op for node in nodes}
+    }  # of those without a value, most of them
     for op, arguments, value in nodes:
+        what = plain[op] if value is None else repr((op, value)).encode()
         parts = [found[a] for a in arguments]
         if op in COMMUTATIVE:
             parts.sort()
-        found.append(blake2b(repr((op, value)).encode() + b"".join(parts), digest_size=16).digest())
+        found.append(blake2b(what + b"".join(parts), digest_size=16).digest())
     return found

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from fddbench.blocks.program import Program
 from fddbench.blocks.schedule import latency
 
-__all__ = ["Region", "region"]
+__all__ = ["Region", "region", "worth_a_branch"]
 
 _WORTH_IT = 60  # cycles of a processor with one operation each, below which a branch costs more than it spares
 
@@ -55,10 +55,16 @@ def region(
     seldom = _only_for(program, order, choices, set(outputs))
     conditions = sorted({nodes[j].arguments[0] for j in choices - seldom if nodes[j].arguments[1] in seldom})
     inside = seldom - behind
-    if sum(latency(program, j) for j in inside if nodes[j].op not in {"literal", "flag"}) < _WORTH_IT:
+    if not worth_a_branch(program, inside):
         return None
     results = {a for j in order if j not in inside for a in nodes[j].arguments if a in inside}
     return Region(frozenset(inside), tuple(sorted(results)), tuple(conditions))
+
+
+def worth_a_branch(program: Program, inside: Collection[int]) -> bool:
+    """Whether some nodes cost more than a branch around them."""
+    costly = (j for j in inside if program.nodes[j].op not in {"literal", "flag"})
+    return sum(latency(program, j) for j in costly) >= _WORTH_IT
 
 
 def _only_for(program: Program, order: list[int], choices: set[int], outputs: set[int]) -> set[int]:

@@ -1,4 +1,4 @@
-"""Finds the ring buffers of a program, so that a kernel addresses one row instead of comparing all."""
+"""Finds the state rows that change, and the ring buffers, so that a kernel addresses one row instead of comparing all."""
 
 from collections import defaultdict
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from fddbench.blocks.program import Program
 from fddbench.blocks.rewrite import depends_only_on
 
-__all__ = ["Ring", "reads", "writes"]
+__all__ = ["Ring", "reads", "state_row", "writes", "written"]
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Ring:
     value: int = -1
 
 
-def _state_row(program: Program, node: int) -> int:
+def state_row(program: Program, node: int) -> int:
     """Row of a state input, else -1."""
     op, _, value = program.nodes[node]
     return value[1] if op == "input" and value[0] == "state" else -1
@@ -40,7 +40,7 @@ def reads(program: Program) -> dict[int, Ring]:
     uniform, found = depends_only_on(program, {"sample"}), {}
     for j, (op, arguments, _) in enumerate(program.nodes):
         if op == "pick" and uniform[arguments[0]]:
-            rows = [_state_row(program, a) for a in arguments[1:]]
+            rows = [state_row(program, a) for a in arguments[1:]]
             if rows[0] >= 0 and rows == list(range(rows[0], rows[0] + len(rows))):
                 found[j] = Ring(arguments[0], rows[0], len(rows))
     return found
@@ -51,7 +51,7 @@ def writes(program: Program) -> list[Ring]:
     uniform, turns = depends_only_on(program, {"sample"}), defaultdict(set)
     for row, node in enumerate(program.outputs["state"]):
         op, arguments, _ = program.nodes[node]
-        if op != "select" or _state_row(program, arguments[2]) != row:
+        if op != "select" or state_row(program, arguments[2]) != row:
             continue
         test, compared, _ = program.nodes[arguments[0]]
         for index, turn in (compared, compared[::-1]) if test == "eq" else ():
@@ -63,3 +63,8 @@ def writes(program: Program) -> list[Ring]:
         for (index, value, first), places in turns.items()
         if len(places) > 1 and places == set(range(len(places)))
     ]
+
+
+def written(program: Program) -> dict[int, int]:
+    """Node that each state row becomes, of the rows that do not stay as they are."""
+    return {row: node for row, node in enumerate(program.outputs["state"]) if state_row(program, node) != row}

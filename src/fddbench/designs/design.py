@@ -49,6 +49,8 @@ class Design:
         Place in the campaign that names it.
     gamma : float or None
         What its recipe guarantees in the worst case [-].
+    members : mapping of str to Kind
+        Members of other families that its numbers name, by the key that names them.
     """
 
     name: str
@@ -63,6 +65,7 @@ class Design:
     path: Path
     where: str
     gamma: float | None = None
+    members: Mapping[str, Kind] = field(default_factory=dict)
 
     def build(self, bus: Bus) -> Detector:
         """Detector for a bus.
@@ -73,9 +76,10 @@ class Design:
             Its numbers do not make one, or it reads a file that would not travel with the results.
         """
         with noticed_reads(self.path.parent) as read:
-            detector: Detector = self.kind.member.from_design(self.gains, bus)
+            named = {key: kind.member for key, kind in self.members.items()}
+            detector: Detector = self.kind.member.from_design(self.gains, bus, **named)
         stray = sorted(set(read) - set(self.files))
-        if stray and self.kind.files:
+        if stray and self.files:
             raise DesignError(
                 f"it reads {', '.join(stray)} beside it, which would not travel with the results; declare it in its Python "
                 f"file: FILES = ({', '.join(map(repr, stray))},)"
@@ -107,12 +111,14 @@ def read_design(path: Path, *, where: str = "") -> Design:
     except FddbenchError as error:
         mistakes.append(document.mistake(("kind",), str(error)))
     gains = _gains(document, kind, mistakes)
+    members = _members(document, kind, gains, path.parent, mistakes)
     refuse(mistakes)
     assert written is not None
     assert kind is not None
     assert gains is not None
     text = path.read_text(encoding="utf-8-sig")
-    stands_on = "".join(f"{each}:{text_sha256(content.hex())}" for each, content in sorted(kind.files.items()))
+    files = {name: text for each in (kind, *members.values()) for name, text in each.files.items()}
+    stands_on = "".join(f"{each}:{text_sha256(content.hex())}" for each, content in sorted(files.items()))
     return Design(
         name=path.stem,
         kind=kind,
@@ -122,10 +128,11 @@ def read_design(path: Path, *, where: str = "") -> Design:
         tuned_on=written.tuned_on or (),
         text=text,
         sha256=text_sha256(text + stands_on),
-        files=kind.files,
+        files=files,
         path=path,
         where=where,
         gamma=_gamma(written.recipe),
+        members=members,
     )
 
 
@@ -143,6 +150,24 @@ def _gains(document: Document, kind: Kind | None, mistakes: list[Mistake]) -> Ba
             found = model.model_validate_json(json.dumps(document.get("gains")), strict=True)
     except ValidationError as error:
         mistakes += mistakes_of(error, document, model=model, at=("gains",))
+    return found
+
+
+def _members(
+    document: Document, kind: Kind | None, gains: BaseModel | None, folder: Path, mistakes: list[Mistake]
+) -> dict[str, Kind]:
+    """Members of other families that gains name: a model says which keys do, ``MEMBERS = {key: family}``."""
+    if kind is None or gains is None:
+        return {}
+    found = {}
+    for key, family in getattr(kind.member.Gains, "MEMBERS", {}).items():
+        name = getattr(gains, key)
+        if name is None:
+            continue
+        try:
+            found[key] = kinds.find(family, name, beside=folder)
+        except FddbenchError as error:
+            mistakes.append(document.mistake(("gains", key), str(error)))
     return found
 
 

@@ -4,6 +4,7 @@ import numpy as np
 
 from fddbench.blocks.layout import Rows
 from fddbench.blocks.linear import total
+from fddbench.blocks.primitives import rarely
 
 __all__ = ["choose", "latch"]
 
@@ -37,4 +38,4 @@ def choose(outlier: Rows, n_faulty: Rows, tripped: Rows, energy: Rows) -> Rows:
 
 def latch(declared: Rows, chosen: Rows, *, n_before: Rows, n_now: Rows) -> Rows:
     """Declared sites, (n_sites, n_cases): chosen anew only when the number of faulty sensors rises."""
-    return np.where(n_now > n_before, chosen, declared)
+    return np.where(rarely(n_now > n_before), chosen, declared)

@@ -12,12 +12,15 @@ from fddbench.interfaces.fault import Fault, FaultBlock, Instant
 from fddbench.interfaces.floats import NEVER, Floats
 from fddbench.interfaces.loop import FlightFaults, Flights, Loop, Prepared, Sample
 from fddbench.interfaces.recording import Recording
+from fddbench.interfaces.scheduling import AffineModel, Channel, Scheduling
 from fddbench.interfaces.site import Site
 
 __all__ = [
     "NEVER",
+    "AffineModel",
     "Benchmark",
     "Bus",
+    "Channel",
     "Choice",
     "Detectability",
     "Detector",
@@ -34,6 +37,7 @@ __all__ = [
     "Prepared",
     "Recording",
     "Sample",
+    "Scheduling",
     "SinglePlant",
     "Site",
     "Tunable",

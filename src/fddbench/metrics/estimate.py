@@ -13,7 +13,7 @@ import numpy as np
 
 from fddbench.blocks.layout import Rows
 from fddbench.blocks.linear import total
-from fddbench.metrics.found import BEFORE, NEVER
+from fddbench.metrics.found import BEFORE, detected
 
 __all__ = ["Sums", "add_errors", "bias_and_rms"]
 
@@ -79,7 +79,6 @@ def bias_and_rms(sums: Sums, *, found: Rows) -> tuple[Rows, Rows, Rows]:
     n, bias, rms : (n_cases,) rows
         Bias and rms in the unit of the estimate, 0 where n is 0: there is no such number then.
     """
-    detected = (found > BEFORE) & (found < NEVER)
-    n, first, second = (total(np.where(detected, one, 0.0)) for one in sums)
+    n, first, second = (total(np.where(detected(found), one, 0.0)) for one in sums)
     some = np.maximum(n, 1.0)
     return n, first / some, np.sqrt(second / some)

@@ -18,7 +18,7 @@ from fddbench.blocks.layout import Rows
 from fddbench.blocks.linear import total
 from fddbench.interfaces import NEVER
 
-__all__ = ["BEFORE", "NEVER", "changed", "found_by_alarm", "found_by_sites", "in_flight", "outside"]
+__all__ = ["BEFORE", "NEVER", "changed", "detected", "found_by_alarm", "found_by_sites", "in_flight", "outside"]
 
 BEFORE = -1.0
 """Instead of a sample: declared before the fault began, or standing when it did."""
@@ -41,7 +41,12 @@ def outside(declared: Rows, faulty_from: Rows, sample: Rows) -> Rows:
 
 def changed(declared: Rows, previous: Rows) -> Rows:
     """Whether another set of sites is declared than at the sample before, (n_cases,) of bool; before sample 0 none is."""
-    return total(np.abs(declared - previous)) > 0.0
+    return total(np.abs(declared - previous)) != 0.0
+
+
+def detected(found: Rows) -> Rows:
+    """Whether the number of a fault is a sample, (n_cases,) of bool."""
+    return (found > BEFORE) & (found < NEVER)
 
 
 def found_by_sites(

@@ -14,10 +14,11 @@ from fddbench.blocks.block import NO_DRAWS, Part
 from fddbench.blocks.drawn import Draws
 from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, mapped
 from fddbench.blocks.linear import total
+from fddbench.blocks.primitives import rarely
 from fddbench.errors import DesignError
 from fddbench.interfaces import NEVER, Floats, Sample, Verdict
 from fddbench.metrics.estimate import Sums, add_errors
-from fddbench.metrics.found import changed, found_by_alarm, found_by_sites, outside
+from fddbench.metrics.found import changed, detected, found_by_alarm, found_by_sites, outside
 from fddbench.metrics.score import LOWEST, FaultScore, FaultTimes, ScoreConstants, ScoreState
 
 __all__ = ["SITES", "Scoring"]
@@ -138,25 +139,37 @@ class Scoring:
         alarm = np.maximum(verdict.alarm * 1.0, np.where(number > 0.0, 1.0, 0.0))
         active = alive & (sample <= c.last)
         faulty, healthy = active & (sample >= c.k0), active & (sample < c.k0)
+        news, finite = changed(declared, x.declared), _finite(verdict)
+        said = news | (alarm != x.alarm)
+        # nothing but the margins and the sums of errors moves in any other sample
+        busy = rarely(active & (said | _onset(c, sample) | ~finite))
         wrong = outside(declared, c.faulty_from, sample)
-        news = changed(declared, x.declared)
-        said = news if self.isolates else alarm != x.alarm
         so_far = total(np.where(sample >= c.faulty_from, 1.0, 0.0))
         residual, errors = verdict.residual, _errors(verdict, actual)
+
+        def kept(new: Rows, old: Rows) -> Rows:
+            return np.where(busy, new, old)
+
+        def first(number: Row, condition: Row) -> Row:
+            return kept(np.where(condition, np.minimum(number, sample), number), number)
+
         after = ScoreState(
-            declared=np.where(active, declared, x.declared),
-            alarm=np.where(active, alarm, x.alarm),
-            false_alarm=_first(x.false_alarm, healthy & (alarm > 0.0), sample),
-            raised=_first(x.raised, faulty & (alarm > 0.0) & (x.alarm == 0.0), sample),
-            wrong=_first(x.wrong, faulty & wrong, sample),
-            over_declared=np.where(faulty & (number > so_far), 1.0, x.over_declared),
-            changes=np.where(faulty & said, x.changes + 1.0, x.changes),
+            declared=kept(declared, x.declared),
+            alarm=kept(alarm, x.alarm),
+            false_alarm=first(x.false_alarm, healthy & (alarm > 0.0)),
+            raised=first(x.raised, faulty & (alarm > 0.0) & (x.alarm == 0.0)),
+            wrong=first(x.wrong, faulty & wrong),
+            over_declared=kept(np.where(faulty & (number > so_far), 1.0, x.over_declared), x.over_declared),
+            changes=kept(
+                np.where(faulty & (news if self.isolates else alarm != x.alarm), x.changes + 1.0, x.changes), x.changes
+            ),
             margin_healthy=np.where(healthy, np.maximum(x.margin_healthy, residual), x.margin_healthy),
             margin_faulty=np.where(faulty, np.maximum(x.margin_faulty, residual), x.margin_faulty),
-            nonfinite=np.where(active & ~_sound(verdict, declared), 1.0, x.nonfinite),
+            nonfinite=kept(np.where(finite & _sound(verdict, declared), x.nonfinite, 1.0), x.nonfinite),
             faults=tuple(
                 self._fault(
-                    one, times, declared, alarm, x.alarm, wrong=wrong, news=news, sample=sample, active=active, errors=errors
+                    one, times, declared, alarm, x.alarm, wrong=wrong, news=news, sample=sample, active=active,
+                    errors=errors, busy=busy,
                 )
                 for one, times in zip(x.faults, c.faults, strict=True)
             ),
@@ -165,7 +178,7 @@ class Scoring:
 
     def _fault(
         self, x: FaultScore, c: FaultTimes, declared: Rows, alarm: Row, alarm_before: Row, *, wrong: Row, news: Row,
-        sample: Row, active: Row, errors: Rows,
+        sample: Row, active: Row, errors: Rows, busy: Row,
     ) -> FaultScore:  # fmt: skip
         """Number of one fault, and the sums of the errors of its estimate."""
         when: dict[str, Row] = {"last": c.last, "sample": sample, "active": active}
@@ -174,12 +187,14 @@ class Scoring:
         else:
             found = found_by_alarm(x.found, alarm, alarm_before, first=c.first, **when)
         if self.estimates is None or errors is None:
-            return FaultScore(found=found, sums=x.sums)
+            return FaultScore(found=np.where(busy, found, x.found), sums=x.sums)
+        counting = rarely(busy | (active & detected(x.found)))
         own = self._estimated(c.own) if self.estimates == SITES else np.ones_like(errors)
         sums = add_errors(
             cast("Sums", x.sums), errors, own, found=found, before=x.found, settling=self.settling, **when
         )
-        return FaultScore(found=found, sums=sums)
+        new: Part = tuple(np.where(counting, one, old) for one, old in zip(sums, cast("Sums", x.sums), strict=True))
+        return FaultScore(found=np.where(counting, found, x.found), sums=new)
 
     def _estimated(self, own: Rows) -> Rows:
         """1 for the sites of a fault that the detector watches, else 0."""
@@ -195,17 +210,22 @@ def _errors(verdict: Verdict, actual: Rows) -> Rows:
     return error if np.ndim(error) == 2 else error[np.newaxis]
 
 
-def _sound(verdict: Verdict, declared: Rows) -> Row:
-    """Whether declarations and alarm are 0 or 1 and the rest is finite; what is not is not repaired but said."""
-    alarm = verdict.alarm * 1.0
-    odd = total(np.abs(declared * (declared - 1.0))) + np.abs(alarm * (alarm - 1.0))
-    sound = (np.abs(verdict.residual) < np.inf) & (odd == 0.0)
+def _finite(verdict: Verdict) -> Row:
+    """Whether residual and estimate are finite; what is not is not repaired but said."""
+    finite = np.abs(verdict.residual) < np.inf
     if verdict.estimate is None:
-        return sound
+        return finite
     size = np.abs(verdict.estimate)
-    return sound & ((total(size) if np.ndim(size) == 2 else size) < np.inf)
+    return finite & ((total(size) if np.ndim(size) == 2 else size) < np.inf)
 
 
-def _first(number: Row, condition: Row, sample: Row) -> Row:
-    """Sample number at which the condition was first true."""
-    return np.where(condition, np.minimum(number, sample), number)
+def _sound(verdict: Verdict, declared: Rows) -> Row:
+    """Whether declarations and alarm are 0 or 1."""
+    alarm = verdict.alarm * 1.0
+    return total(np.abs(declared * (declared - 1.0))) + np.abs(alarm * (alarm - 1.0)) == 0.0
+
+
+def _onset(c: ScoreConstants, sample: Row) -> Row:
+    """Whether a site becomes faulty at this sample, or a fault begins."""
+    firsts = [*c.faulty_from, *(fault.first for fault in c.faults)]
+    return total([np.where(sample == first, 1.0, 0.0) for first in firsts]) > 0.0

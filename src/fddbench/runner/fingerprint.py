@@ -42,6 +42,7 @@ def _members(campaign: Campaign) -> Iterator[Any]:
     yield from (campaign.bench, campaign.plant, *campaign.chosen.values())
     yield from (fault for scenario in campaign.scenarios for fault in scenario.faults)
     yield from (design.kind.member for design in campaign.designs)
+    yield from (kind.member for design in campaign.designs for kind in design.members.values())
 
 
 def provenance_for(plan: Plan, fingerprint: Fingerprint) -> dict[str, object]:

@@ -15,7 +15,7 @@ __all__ = ["Actuation", "Aircraft", "Plausible", "Sloped", "Surface", "Travel"]
 class Part(BaseModel):
     """Numbers that belong together; nothing may be missing or unknown."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, defer_build=True)
 
 
 class Plausible:

@@ -34,7 +34,7 @@ def table(slots: int, n_recorded: int) -> dict[str, Line]:
         "call": lambda o, value: o.do(f"call void @repeat_{value[0]}(ptr {o.slot(value[1])})"),
         "skip": _skip,
         "resume": _resume,
-        "join": lambda o, _, a: o.let(f"phi {o.V} [{a}, %rare], [zeroinitializer, %sample]"),
+        "join": _join,
         "record": lambda o, value, a: _record(o, value, a, n_recorded),
     }
 
@@ -76,14 +76,19 @@ def _gather(o: Vectors, number: int, index: str) -> str:
     return o.let(f"call {o.V} @llvm.masked.gather.v{o.lanes}f64.v{o.lanes}p0({given})")
 
 
-def _skip(o: Vectors, _: None, mask: str) -> None:
-    o.branch_if_any(mask, "rare", "resumed")
-    o.do("rare:")
+def _skip(o: Vectors, number: int, mask: str) -> None:
+    o.branch_if_any(mask, f"rare_{number}", f"resumed_{number}")
+    o.do(f"rare_{number}:")
 
 
-def _resume(o: Vectors, _: None) -> None:
-    o.do("br label %resumed")
-    o.do("resumed:")
+def _resume(o: Vectors, number: int) -> None:
+    o.do(f"br label %resumed_{number}")
+    o.do(f"resumed_{number}:")
+
+
+def _join(o: Vectors, number: int, a: str) -> str:
+    before = f"resumed_{number - 1}" if number else "sample"
+    return o.let(f"phi {o.V} [{a}, %rare_{number}], [zeroinitializer, %{before}]")
 
 
 def _record(o: Vectors, number: int, a: str, n_recorded: int) -> None:

@@ -1,0 +1,1 @@
+"""Scheduling parameters from what is measured: one file an aircraft."""
