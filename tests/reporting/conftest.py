@@ -137,7 +137,7 @@ def synthetic_report(
             {"name": d, "kind": d, "source": "a paper", "about": "a design", "sha256": "ab" * 32} for d in detectors
         ],
         "recordings": [synthetic_recording(rows, name, detectors) for name in scenarios if flights],
-        "published": published("table8"),
+        "published": (published("table8"),),
         "choices": ("plant", "voter", "sensors", "wind"),
         "envelope_axes": AXES,
     }

@@ -47,7 +47,7 @@ def test_same_input_same_bytes(make_report):
         ({"scenarios": ("healthy",), "flights": 4}, "False alarms"),
         ({"scenarios": ("jam_b",), "flights": 4, "detectors": ("voting_monitor",)}, "scored by 1 detector:"),
         ({"scenarios": ("oscill_a",), "flights": 1}, "1 flight in 1 scenario, "),
-        ({"scenarios": ("jam_a",), "flights": 3, "published": None}, "jam_a"),
+        ({"scenarios": ("jam_a",), "flights": 3, "published": ()}, "jam_a"),
         ({"scenarios": ("jam_a",), "flights": 6, "lost": LOST}, "6 infeasible"),
         ({"scenarios": ("jam_a",), "flights": 3, "detectors": ("a", "b", "c", "d", "e", "f", "g")}, "by 7 detectors"),
     ],

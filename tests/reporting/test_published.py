@@ -1,8 +1,10 @@
 from pathlib import Path
 
 import pytest
+import yaml
 
-from fddbench import kinds
+from fddbench import gallery, kinds
+from fddbench.campaign.load import read_campaign
 from fddbench.errors import FddbenchError
 from fddbench.interfaces import SinglePlant
 from fddbench.reporting import page
@@ -38,17 +40,38 @@ def test_table8_as_printed():
 
 
 def test_a_campaign_names_its_table():
-    assert published_for({}, "table8").table == 8
-    assert published_for({"published": "table10"}, "table8").table == 10
-    assert published_for({}) is None
+    assert [found.table for found in published_for({}, "table8")] == [8]
+    named = {"report": {"published": ["table10", "table9"]}}
+    assert [found.table for found in published_for(named, "table8")] == [10, 9]
+    assert published_for({}) == ()
     with pytest.raises(FddbenchError, match="no published table is called 'table88'. Did you mean 'table8'"):
-        published_for({"published": "table88"})
+        published_for({"report": {"published": ["table88"]}})
 
 
 def test_what_is_printed_of_a_benchmark_comes_with_the_benchmark():
-    assert published_for({}, kinds.find("benchmark", "yaw_rate").member().published).table == 8
+    assert published_for({}, kinds.find("benchmark", "yaw_rate").member().published)[0].table == 8
     assert iterations_for(kinds.find("benchmark", "jet_engine").member().iterations).table == 1
-    assert iterations_for(SinglePlant.iterations) is published_for({}, SinglePlant.published) is None
+    assert iterations_for(SinglePlant.iterations) is None
+    assert published_for({}, SinglePlant.published) == ()
+
+
+def test_every_printed_row_has_a_flight_in_the_campaigns_of_the_whole_envelope():
+    """Tables 7 to 11: a scenario of the printed size, onset and number of sensors, found by its name."""
+    for name, tables in (("fes_parametric", [7]), ("fes_monte_carlo", [8]), ("fes_maturation", [9, 10, 11])):
+        campaign = read_campaign(gallery.folder("campaigns") / f"{name}.yaml")
+        scenarios = {scenario.name: scenario for scenario in campaign.scenarios}
+        found = published_for(yaml.safe_load(campaign.text))
+        assert [table.table for table in found] == tables
+        for table in found:
+            for row in table.rows:
+                own = f"{row.scenario}_{row.variant}" if row.n_faulty else f"healthy_{row.manoeuvre}"
+                flown = scenarios.get(own) or scenarios[row.scenario]
+                assert flown.entry.manoeuvre == (row.manoeuvre or "cruise")
+                for fault in flown.faults:
+                    assert (fault.onset_s, len(fault.sites)) == (row.onset_s, row.n_faulty)
+                    sizes = fault.model_dump(by_alias=True)
+                    for key in ("amplitude_percent", "rate_percent_s", "variance_percent"):
+                        assert getattr(row, key) is None or sizes[key] == getattr(row, key)
 
 
 def test_the_report_names_no_benchmark():

@@ -20,9 +20,10 @@ from fddbench.runner.fused import Fused
 from fddbench.runner.work import rows_and_events
 
 needs_llvm = pytest.mark.skipif(not llvm.available(), reason="llvmlite is not installed")
+_FILES = {path: yaml.safe_load(path.read_text(encoding="utf-8")) for path in gallery.folder("campaigns").glob("*.yaml")}
+# of each benchmark the first file by the alphabet that flies its default plant: other plants have such a test of their own
 CAMPAIGNS = {
-    yaml.safe_load(path.read_text(encoding="utf-8"))["benchmark"]: path
-    for path in sorted(gallery.folder("campaigns").glob("*.yaml"), reverse=True)
+    _FILES[path]["benchmark"]: path for path in sorted(_FILES, key=lambda of: ("plant" in _FILES[of], of), reverse=True)
 }
 DESIGNS = sorted(path.stem for path in gallery.folder("detectors").glob("*.yaml"))
 

@@ -10,12 +10,14 @@ import yaml
 
 from fddbench.api.detectability import detectable_of
 from fddbench.campaign.meaning import Campaign
+from fddbench.reporting.bands import names_in
 from fddbench.reporting.page import ReportData
 from fddbench.reporting.published import iterations_for, published_for
 from fddbench.results.folder import provenance_of
 from fddbench.results.table import read_events, read_rows
 from fddbench.results.whole import holdings
 from fddbench.runner.assembling import assemble
+from fddbench.runner.banded import bands_of
 from fddbench.runner.fingerprint import frozen, other_program
 from fddbench.runner.load import detector_load, in_words
 from fddbench.runner.replay import replay_campaign, sampled_cases
@@ -62,6 +64,8 @@ def report_data(folder: Path) -> ReportData:
             for d in campaign.designs
         ],
         recordings=list(replay_campaign(campaign, chosen, seconds=_seconds(rows), signals=bench.shown)),
+        **_bands(campaign, rows, content),
+        folder=folder.as_posix(),
         published=published_for(content, getattr(bench, "published", "")),
         iterations=iterations_for(getattr(bench, "iterations", "")),
         envelope_axes=getattr(bench, "envelope_axes", ()),
@@ -77,6 +81,16 @@ def _replayed(folder: Path, campaign: Campaign) -> dict[str, str]:
     """Line that says by which other program the pictures were flown."""
     other = other_program(folder, campaign)
     return {"signals flown again by another program": other} if other else {}
+
+
+def _bands(campaign: Campaign, rows: pd.DataFrame, content: Mapping[str, Any]) -> dict[str, Any]:
+    """Bands of all flights, where the campaign asks for them, and what goes on their pictures."""
+    bench, responses = campaign.bench, tuple(getattr(campaign.plant, "responses", ()))
+    found: dict[str, Any] = {"responses": responses, "shown": bench.shown}
+    if (content.get("report") or {}).get("bands"):
+        names = names_in(responses, bench.shown)
+        found["bands"] = list(bands_of(campaign, rows, signals=names, seconds=_seconds(rows)))
+    return found
 
 
 def _seconds(rows: pd.DataFrame) -> dict[str, float]:

@@ -264,7 +264,7 @@ def _content(
     beside: Mapping[str, bytes],
 ) -> dict[str, Any]:
     """Everything that decides rows, as plain data."""
-    content: dict[str, Any] = written.model_dump(mode="json", exclude={"about", "scenarios"}) | dict(choices)
+    content: dict[str, Any] = written.model_dump(mode="json", exclude={"about", "scenarios", "report"}) | dict(choices)
     content["scenarios"] = [
         entry.model_dump(mode="json")
         | {"faults": [fault.model_dump(mode="json", by_alias=True) for fault in faults[number]]}

@@ -5,19 +5,30 @@ data-dependent ``if``; see ``blocks`` for the operations it may use. It runs on 
 it cannot look ahead.
 """
 
-from fddbench.interfaces.benchmark import Benchmark, Choice, Detectability, Options, Parameter, Plant, SinglePlant
+from fddbench.interfaces.benchmark import (
+    Benchmark,
+    Choice,
+    Detectability,
+    Options,
+    Parameter,
+    Plant,
+    Response,
+    SinglePlant,
+)
 from fddbench.interfaces.bus import Bus
 from fddbench.interfaces.detector import Detector, Tunable, Verdict, Voter
 from fddbench.interfaces.fault import Fault, FaultBlock, Instant
 from fddbench.interfaces.floats import NEVER, Floats
 from fddbench.interfaces.loop import FlightFaults, Flights, Loop, Prepared, Sample
-from fddbench.interfaces.recording import Recording
+from fddbench.interfaces.recording import QUANTILES, Bands, Recording
 from fddbench.interfaces.scheduling import AffineModel, Channel, Scheduling
 from fddbench.interfaces.site import Site
 
 __all__ = [
     "NEVER",
+    "QUANTILES",
     "AffineModel",
+    "Bands",
     "Benchmark",
     "Bus",
     "Channel",
@@ -36,6 +47,7 @@ __all__ = [
     "Plant",
     "Prepared",
     "Recording",
+    "Response",
     "Sample",
     "Scheduling",
     "SinglePlant",

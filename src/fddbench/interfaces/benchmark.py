@@ -9,7 +9,17 @@ from fddbench.interfaces.fault import Fault
 from fddbench.interfaces.loop import Loop
 from fddbench.interfaces.site import Site
 
-__all__ = ["Benchmark", "Choice", "Detectability", "Options", "Parameter", "Plant", "SinglePlant", "default_choices"]
+__all__ = [
+    "Benchmark",
+    "Choice",
+    "Detectability",
+    "Options",
+    "Parameter",
+    "Plant",
+    "Response",
+    "SinglePlant",
+    "default_choices",
+]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,8 +116,31 @@ class Detectability:
     hatch_below: float = 0.0
 
 
+@dataclass(frozen=True, kw_only=True)
+class Response:
+    """A panel of the pictures of a manoeuvre: how the aircraft answers what it is asked for.
+
+    Attributes
+    ----------
+    signal : str
+        Measured or true signal; a row of one of several is numbered from 1, ``r_deg_s_2``.
+    command : str
+        Signal that it should follow; "" for none.
+    limits : sequence of str
+        Signals that it should not pass.
+    """
+
+    signal: str
+    command: str = ""
+    limits: Sequence[str] = ()
+
+
 class Plant(Protocol):
-    """What flies: its parameters, what it refuses, what it can do; a benchmark with a single one may be its own plant."""
+    """What flies: its parameters, what it refuses, what it can do; a benchmark with a single one may be its own plant.
+
+    For the report it may have ``responses``, the `Response` panels of the pictures of its flights, where a campaign asks for
+    bands (what the benchmark shows).
+    """
 
     sites: tuple[Site, ...]
     parameters: tuple[Parameter, ...]

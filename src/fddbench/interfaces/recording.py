@@ -5,7 +5,10 @@ from dataclasses import dataclass
 
 from fddbench.interfaces.floats import Floats
 
-__all__ = ["Recording"]
+__all__ = ["QUANTILES", "Bands", "Recording"]
+
+QUANTILES = (0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0)
+"""What `Bands` keep of all flights at each time."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,3 +37,42 @@ class Recording:
     onset_s: Floats | None
     signals: Mapping[str, Floats]
     detectors: Mapping[str, Mapping[str, Floats]]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bands:
+    """Signals of all flights of one scenario as quantiles over time, and those of one flight; NaN where none flies any more.
+
+    Attributes
+    ----------
+    scenario, manoeuvre : str
+        Its name, and what is flown.
+    flights, of : int
+        How many flights there are in the quantiles, and how many were flown: a seeded sample of very many.
+    case : str
+        The flight that is kept by itself: the first of that sample.
+    time_s : (n_time,) array
+        Time since the start [s], coarser than the flight.
+    onset_s : float or None
+        Earliest first faulty sample [s]; None: healthy flights.
+    signals : mapping of str to (n_quantile, n_time) arrays
+        Measured and true signals by name with unit, rows of one numbered from 1: `QUANTILES`, observed values.
+    one : mapping of str to (n_time,) arrays
+        The same signals of that flight.
+    detectors : mapping of str to mapping of str to (n_quantile, n_time) arrays
+        Per detector what it announced in ``recorded``, and ``residual``.
+    declared : mapping of str to (n_count, n_time) arrays
+        Per detector the share of flights that declare 0, 1, 2, … sites [-].
+    """
+
+    scenario: str
+    manoeuvre: str
+    flights: int
+    of: int
+    case: str
+    time_s: Floats
+    onset_s: float | None
+    signals: Mapping[str, Floats]
+    one: Mapping[str, Floats]
+    detectors: Mapping[str, Mapping[str, Floats]]
+    declared: Mapping[str, Floats]

@@ -8,10 +8,12 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from fddbench.interfaces import Recording
+from fddbench.interfaces import Bands, Recording, Response
 from fddbench.metrics.alarms import summarize_alarms
 from fddbench.metrics.summary import summarize
-from fddbench.reporting import detectability, figures, headlines, signals, tables
+from fddbench.reporting import detectability, failures, figures, headlines, infeasible, signals, tables
+from fddbench.reporting.bands import band_pictures
+from fddbench.reporting.beside import beside
 from fddbench.reporting.guarantees import guarantee_lines
 from fddbench.reporting.published import Iterations, Published
 
@@ -37,8 +39,8 @@ class ReportData:
         Per detector name, kind, source, about, load (of a step, in words), sha256.
     recordings : sequence of Recording
         Re-flown cases, one recording per scenario.
-    published : Published or None
-        Printed table to stand beside ours.
+    published : sequence of Published
+        Printed tables to stand beside ours.
     iterations : Iterations or None
         Printed course of an optimisation, and ours.
     limits_from : str
@@ -53,6 +55,12 @@ class ReportData:
         How many flights of how many the folder holds, "" when all.
     detectable : DataFrame or None
         Maps of detectability, lines of `fddbench.metrics.detectable.DETECTABLE`.
+    bands : sequence of Bands
+        All flights of scenarios as quantiles over time, where the campaign asks for them.
+    responses, shown : sequences
+        Panels of healthy flights, as the plant says, and signals of the others, as the benchmark does.
+    folder : str
+        The folder of results as a reader would write it.
     """
 
     campaign: Mapping[str, Any]
@@ -61,7 +69,7 @@ class ReportData:
     provenance: Mapping[str, str]
     designs: Sequence[Mapping[str, Any]]
     recordings: Sequence[Recording]
-    published: Published | None = None
+    published: Sequence[Published] = ()
     iterations: Iterations | None = None
     limits_from: str = ""
     choices: Sequence[str] = ()
@@ -69,6 +77,10 @@ class ReportData:
     in_sample: Sequence[str] = ()
     partial: str = ""
     detectable: pd.DataFrame | None = None
+    bands: Sequence[Bands] = ()
+    responses: Sequence[Response] = ()
+    shown: Sequence[str] = ()
+    folder: str = "results"
 
 
 def write_page(report: ReportData, output: Path) -> None:
@@ -96,7 +108,7 @@ def _content(report: ReportData) -> dict[str, Any]:
     rows = report.rows
     summary = summarize(rows, in_sample=report.in_sample)
     alarms = summarize_alarms(rows, in_sample=report.in_sample)
-    compared = tables.published_lines(summary, report.published) if report.published else []
+    compared = [found for table in report.published if (found := beside(summary, table)) is not None]
     reasons = tables.reason_lines(rows)
     return {
         "campaign": report.campaign,
@@ -113,11 +125,17 @@ def _content(report: ReportData) -> dict[str, Any]:
         "guarantees": guarantee_lines(rows, report.events, report.designs),
         "iterations": report.iterations,
         "limits_from": report.limits_from,
-        "published": report.published,
         "compared": compared,
         "curves": figures.detection_curves(rows),
         "pictures": [p for r in report.recordings if r.cases for p in [_picture(r, rows)] if p["png"] is not None],
         **_detectability(report.detectable, alarms),
+        "bands": band_pictures(report.bands, report.responses, report.shown),
+        "failures": failures.failure_tables(rows, report.envelope_axes),
+        "worst_heads": failures.WORST,
+        "worst": failures.worst_lines(rows, report.envelope_axes, report.folder),
+        "infeasible_map": infeasible.infeasible_map(rows, report.envelope_axes),
+        "infeasible_heads": infeasible.INFEASIBLE,
+        "infeasible": infeasible.infeasible_lines(rows, report.envelope_axes),
         "envelope": figures.envelope(rows, report.envelope_axes),
         "reasons": reasons[:_MOST_REASONS],
         "more_reasons": max(len(reasons) - _MOST_REASONS, 0),

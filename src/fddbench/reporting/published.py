@@ -1,6 +1,6 @@
 """The printed tables of the papers, read from ``reports/published/``, to stand beside our own results."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -67,6 +67,19 @@ class Published:
                 return row
         return None
 
+    def named(self, scenarios: Collection[str]) -> dict[str, PublishedRow]:
+        """Printed rows by the scenario that says in its own name which row it is.
+
+        ``jam_a_onset_4_s`` is the row of ``jam_a`` in the variant ``onset_4_s``, ``healthy_nose_up`` the first fault-free one
+        of the manoeuvre ``nose_up``.
+        """
+        found: dict[str, PublishedRow] = {}
+        for row in self.rows:
+            name = f"{row.scenario}_{row.variant}" if row.n_faulty else f"healthy_{row.manoeuvre}"
+            if name in scenarios:
+                found.setdefault(name, row)
+        return found
+
 
 def published(table: str) -> Published:
     """Read a printed table by the name of its file, e.g. ``"table8"``.
@@ -92,10 +105,10 @@ def published(table: str) -> Published:
     return Published(**content, printed=printed, inferred=inferred, rows=rows)
 
 
-def published_for(campaign: Mapping[str, Any], default: str = "") -> Published | None:
-    """Table that a campaign names under ``published``, else the default of its benchmark, else None."""
-    table = campaign.get("published") or default
-    return published(table) if table else None
+def published_for(campaign: Mapping[str, Any], default: str = "") -> tuple[Published, ...]:
+    """Tables that a campaign names under ``report: {published: [...]}``, else the default of its benchmark, else none."""
+    named = (campaign.get("report") or {}).get("published") or ([default] if default else [])
+    return tuple(published(table) for table in named)
 
 
 @dataclass(frozen=True, kw_only=True)

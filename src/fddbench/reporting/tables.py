@@ -8,15 +8,13 @@ import numpy as np
 import pandas as pd
 
 from fddbench.metrics.shares import decided, share
-from fddbench.reporting.formats import DASH, count, interval, percent, present, rate, seconds, signed
-from fddbench.reporting.published import Published
+from fddbench.reporting.formats import DASH, count, interval, percent, present, rate, seconds
 
 __all__ = [
     "QUALITY",
     "RESULTS",
     "Cell",
     "event_lines",
-    "published_lines",
     "quality_lines",
     "reason_lines",
     "result_lines",
@@ -138,38 +136,6 @@ def _right(line: Line) -> Cell:
         f"{percent(line['right_percent'])} %",
         f"{count(line['right'])} of {count(line['decided'])}{f': {ends}' if ends else ''}",
     )
-
-
-def published_lines(summary: pd.DataFrame, table: Published) -> list[list[Cell]]:
-    """Our median and maximum detection time in samples beside every printed variant, for the scenarios both have."""
-    printed = {row.scenario for row in table.rows if row.detection_time_samples is not None}
-    ours = summary[summary["scenario"].isin(printed)]
-    lines = []
-    for line in ours.to_dict("records"):
-        median, largest = (_samples(line[f"detection_time_{name}_s"], table.sample_s) for name in ("median", "max"))
-        cells = [
-            Cell(line["scenario"]),
-            Cell(line["detector"]),
-            Cell(f"{count(line['detections'])} of {line['flown']}"),
-        ]
-        cells += [Cell(DASH if n is None else count(n)) for n in (median, largest)]
-        for variant in table.variants:
-            cells += _beside(median, largest, table, variant, line["scenario"])
-        lines.append(cells)
-    return lines
-
-
-def _beside(median: int | None, largest: int | None, table: Published, variant: str, scenario: str) -> list[Cell]:
-    row = table.row(variant, scenario)
-    if row is None or row.detection_time_samples is None:
-        return [Cell(DASH)] * 3
-    printed = f"{count(row.detection_time_samples)} ({row.normalized_detection_time:.4f})"
-    differences = [DASH if n is None else signed(n - row.detection_time_samples) for n in (median, largest)]
-    return [Cell(printed), *map(Cell, differences)]
-
-
-def _samples(time_s: Any, sample_s: float) -> int | None:
-    return round(time_s / sample_s) if present(time_s) else None
 
 
 def reason_lines(rows: pd.DataFrame) -> list[list[Cell]]:

@@ -1,8 +1,11 @@
 """The closed loop: settling times, coupling, both faults, gusts, and pitch by the stabiliser."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from fddbench.benchmarks.b747_longitudinal.laws.tracking import Hinf, Scheduled
 from fddbench.faults.disconnection import Disconnection
 from fddbench.faults.effectiveness import Effectiveness
 
@@ -61,6 +64,23 @@ def test_the_scheduled_law_flies_over_the_envelope(bench):
     assert not now["departed"].any()
     assert np.abs(now["gamma_true_deg"][-1]).max() < 0.01
     assert np.abs(now["v_tas_true_m_s"][-1] - v_tas_m_s - 5.0).max() < 0.05
+
+
+@pytest.mark.parametrize("own", [Hinf, Scheduled])
+def test_integrals_do_not_wind_up_where_engines_give_no_more(bench, own):
+    """Climb at 10,500 m, 260 m/s, which 5 m/s are lost in: afterwards 5.5 m/s at most; 9 m/s without E."""
+
+    class Wound(own):
+        """The same law, whose integrals do not know of stops."""
+
+        law = replace(own.law, E=0.0 * own.law.E)
+
+    def highest_m_s(law):
+        flown = bench.fly(bench.loop(law=law), 1, 250.0, manoeuvre="figures", altitude_m=[10500.0], v_tas_m_s=[260.0])
+        return float(flown["v_tas_true_m_s"].max()) - 260.0
+
+    assert highest_m_s(own) < 5.7
+    assert highest_m_s(Wound) > 8.0
 
 
 @pytest.mark.parametrize("law", LAWS)

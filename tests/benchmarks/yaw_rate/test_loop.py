@@ -244,7 +244,7 @@ def test_choices_and_their_defaults(bench):
         "plant": ("lateral_lpv", "transport_6dof"),
         "voter": ("median", "closest_two"),
         "sensors": ("white", "ideal"),
-        "wind": ("none", "light", "moderate", "severe"),
+        "wind": ("none", "light", "moderate", "severe", "one_minus_cosine"),
     }
     chosen = default_choices(bench.benchmark)
     assert all(chosen[key] is bench.benchmark.choices[key].options[names[0]] for key, names in found.items())

@@ -46,7 +46,10 @@ class YawRate:
             needs=("r_deg_s", "beta_deg", "p_deg_s", "phi_deg"),
         ),
         "wind": Choice(
-            about="lateral gust", options=WINDS, family="wind", needs=("states", "draws", "before", "prepare", "step")
+            about="turbulence, or a gust from the left",
+            options=WINDS,
+            family="wind",
+            needs=("states", "draws", "before", "prepare", "step"),
         ),
     }
     shown: tuple[str, ...] = ("r_deg_s", "r_voted_deg_s")

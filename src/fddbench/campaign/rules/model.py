@@ -15,6 +15,7 @@ __all__ = [
     "Name",
     "Normal",
     "Purpose",
+    "ReportEntry",
     "ScenarioEntry",
     "TruncatedNormal",
     "campaign_file",
@@ -139,6 +140,22 @@ class ScenarioEntry(Strict):
     detection_time_limit_s: Positive | None = None
 
 
+class ReportEntry(Strict):
+    """What the report shows beside what it always shows; decides no row.
+
+    Attributes
+    ----------
+    bands : bool
+        The signals of all flights as quantiles over time, scenario by scenario, and what the aircraft was asked for: every
+        flight is flown again.
+    published : tuple of str
+        Printed tables to stand beside the results, instead of that of the benchmark.
+    """
+
+    bands: bool = False
+    published: tuple[Name, ...] = ()
+
+
 class CampaignFile(Strict):
     """A campaign as it is written; `campaign_file` adds the choices of its benchmark.
 
@@ -159,6 +176,8 @@ class CampaignFile(Strict):
     reconfigure : str
         One of these detectors, if the aircraft is to act on what it declares: at every sample on its declarations of the
         sample before. Nobody else's declarations, and no other detector in the list, have a part in the flight.
+    report : mapping
+        What else the report shows.
     """
 
     name: Name
@@ -173,6 +192,7 @@ class CampaignFile(Strict):
     dispersions: Dispersions = Dispersions()
     detectors: Annotated[tuple[Name, ...], Field(min_length=1)]
     reconfigure: Name | None = None
+    report: ReportEntry = ReportEntry()
 
 
 @cache

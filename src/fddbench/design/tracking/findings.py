@@ -7,13 +7,13 @@ import numpy as np
 
 from fddbench.benchmarks.b747_longitudinal.laws.law_file import OUTPUTS, TrackingLaw
 from fddbench.design.recipes.recipe import short
-from fddbench.design.tracking.aircraft import FlightPoint, LinearAircraft, linear_aircraft, linear_aircrafts
+from fddbench.design.tracking.aircraft import FlightPoint, linear_aircraft, linear_aircrafts
 from fddbench.design.tracking.closed_loop import actuated, disk_margin, gains_at, sampled_decay_1_s
 from fddbench.design.tracking.reference import settling_s
 from fddbench.design.tracking.response import Story, fly
 from fddbench.flight.b747.airframe import DATA, aircraft
 
-__all__ = ["SAMPLE_S", "findings", "slowest_decay_1_s", "step_responses"]
+__all__ = ["SAMPLE_S", "findings", "slowest_decays_1_s", "step_responses"]
 
 SAMPLE_S = 0.04
 """Clock that stability is checked on, the slowest that the benchmark is meant for [s]."""
@@ -34,31 +34,32 @@ def findings(law: TrackingLaw, *points: FlightPoint) -> dict[str, Any]:
             ("disk_margin_stabiliser", actuated(flying, law.handover)),
         )
     }
+    by_elevator, by_stabiliser = slowest_decays_1_s(law, *points)
     return {
         **margins,
-        "slowest_decay_1_s": short(slowest_decay_1_s(law, *points)),
-        "slowest_decay_stabiliser_1_s": short(slowest_decay_1_s(law, *points, stabiliser=True)),
+        "slowest_decay_1_s": short(by_elevator),
+        "slowest_decay_stabiliser_1_s": short(by_stabiliser),
         "nonlinear": step_responses(law, at),
         "nonlinear_stabiliser": step_responses(law, at, stabiliser=True),
     }
 
 
-def slowest_decay_1_s(law: TrackingLaw, *points: FlightPoint, stabiliser: bool = False) -> float:
-    """Decay of the slowest mode [1/s] at all points and corners of ± 10 % of C_L, C_D, C_m and C_m of the elevator."""
-    found = float("inf")
+def slowest_decays_1_s(law: TrackingLaw, *points: FlightPoint) -> tuple[float, float]:
+    """Decay of the slowest mode [1/s], pitch by elevator and by stabiliser.
+
+    The least of all points and of all corners of ± 10 % of C_L, C_D, C_m and C_m of the elevator.
+    """
+    found = [float("inf"), float("inf")]
     for corner in product((-_PERCENT, _PERCENT), repeat=4):
         names = ("delta_c_l_percent", "delta_c_d_percent", "delta_c_m_percent", "delta_c_m_elevator_percent")
         rows = {name: np.full(len(points), value) for name, value in zip(names, corner, strict=True)}
         flying = linear_aircrafts(points, aircraft(np.full(len(points), DATA["inertia"]["mass_kg"]), **rows))
         for at, here in zip(points, flying, strict=True):
-            if here is not None:
-                found = min(found, _decay(law, at, here, stabiliser=stabiliser))
-    return found
-
-
-def _decay(law: TrackingLaw, at: FlightPoint, flying: LinearAircraft, *, stabiliser: bool) -> float:
-    plant = actuated(flying, law.handover if stabiliser else None)
-    return sampled_decay_1_s(plant, gains_at(law, at.dynamic_pressure_pa), sample_s=SAMPLE_S)
+            gains = gains_at(law, at.dynamic_pressure_pa)
+            for i, handover in enumerate((None, law.handover)):
+                if here is not None:
+                    found[i] = min(found[i], sampled_decay_1_s(actuated(here, handover), gains, sample_s=SAMPLE_S))
+    return found[0], found[1]
 
 
 def step_responses(law: TrackingLaw, at: FlightPoint, *, stabiliser: bool = False) -> dict[str, float]:

@@ -22,6 +22,7 @@ def gains(name="lqi"):
 def test_a_shipped_law_is_discretised_by_tustin_s_rule(name):
     law = read_law(DATA / f"law_{name}.yaml")
     at = law.discrete(0.01)
+    np.testing.assert_array_equal(at.E, 0.01 * law.E)
     for j in range(len(law.C)):
         A, B, C, D, _ = cont2discrete((law.A, law.B, law.C[j], law.D[j]), 0.01, method="bilinear")
         for own, other in ((at.A, A), (at.B, B), (at.C[j], C), (at.D[j], D)):

@@ -187,3 +187,25 @@ def test_finer_integration_changes_next_to_nothing(six):
         for n in (1, 2)
     ]
     assert 0.0 < np.abs(ends[0] - ends[1]).max() < 1e-6
+
+
+def test_a_gust_from_the_left_is_met_at_5_s_with_its_gradient(six):
+    condition = np.repeat(CENTRE, 3, axis=1)
+    gradients = {"gust_gradient_m": [30.0, 60.0, 107.0]}
+    _, signals = six.fly(
+        six.loop(wind="one_minus_cosine", sensors="ideal"), condition, "cruise", seconds=20.0, **gradients
+    )
+    beta = signals["beta_true_deg"]
+    assert np.abs(beta[:500]).max() < 1e-9
+    # met from the left the air comes from the left: negative sideslip, within the gust's own time
+    assert (beta.min(0) < -1.5).all()
+    assert (np.diff(np.argmin(beta, axis=0)) > 0).all()
+    assert (np.abs(beta[-1]) < 0.1).all()
+
+
+def test_turbulence_of_the_lateral_wind_comes_in_six_components(six):
+    condition = np.repeat(CENTRE, 16, axis=1)
+    _, signals = six.fly(six.loop(wind="light", sensors="ideal"), condition, "cruise", seconds=30.0)
+    assert not signals["departed"].any()
+    assert 0.03 < (signals["n_z_true_g"] - 1.0).std() < 0.15
+    assert 0.1 < signals["beta_true_deg"].std() < 1.0

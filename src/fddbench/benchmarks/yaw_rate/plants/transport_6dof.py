@@ -13,6 +13,7 @@ from fddbench.benchmarks.yaw_rate.transport.needs import reasons, sizes
 from fddbench.benchmarks.yaw_rate.transport.parameters import PARAMETERS
 from fddbench.benchmarks.yaw_rate.transport.plant import BODY, PlantConstants, PlantState
 from fddbench.benchmarks.yaw_rate.transport.profiles import DURATIONS_S, number_of
+from fddbench.benchmarks.yaw_rate.transport.seeing import RESPONSES
 from fddbench.blocks.block import NO_DRAWS
 from fddbench.blocks.functions import cos
 from fddbench.blocks.integrate import rk4
@@ -27,7 +28,7 @@ from fddbench.flight.transport.motion import Motion, motion_of
 from fddbench.flight.transport.reading import read_aircraft, read_data, twin_jet
 from fddbench.flight.transport.trim import trim
 from fddbench.flight.wind import AirMotion
-from fddbench.interfaces import Floats, Options, Parameter, Prepared, Site
+from fddbench.interfaces import Floats, Options, Parameter, Prepared, Response, Site
 from fddbench.units import DEG_PER_RAD
 
 __all__ = ["Transport6Dof"]
@@ -46,6 +47,7 @@ class Transport6Dof:
     parameters: tuple[Parameter, ...] = PARAMETERS
     refused_parameters: Mapping[str, str] = {}
     manoeuvres: Mapping[str, float] = DURATIONS_S
+    responses: tuple[Response, ...] = RESPONSES
     aircraft: Aircraft = twin_jet()
     gains: Schedule = shipped_law()
     states = Layout(PlantState(rigid=ROWS))

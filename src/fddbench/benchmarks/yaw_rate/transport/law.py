@@ -1,5 +1,6 @@
 """The laws together: from signals and commands to the order of every surface and of the engines, 60 ms late."""
 
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,19 +11,21 @@ from fddbench.benchmarks.yaw_rate.transport.gains import Gains, Schedule
 from fddbench.benchmarks.yaw_rate.transport.lateral_law import LateralState, balance, lateral_law
 from fddbench.benchmarks.yaw_rate.transport.longitudinal_law import (
     LongitudinalState,
+    PitchOrders,
     load_factor_asked,
     longitudinal_law,
 )
 from fddbench.benchmarks.yaw_rate.transport.profiles import Commands, commanded
-from fddbench.benchmarks.yaw_rate.transport.protections import bounds
+from fddbench.benchmarks.yaw_rate.transport.protections import Bounds, bounds
 from fddbench.benchmarks.yaw_rate.transport.sensed import Sensed
 from fddbench.blocks.block import NO_DRAWS
 from fddbench.blocks.drawn import Draws
 from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, record
 from fddbench.blocks.ring import ring
 from fddbench.flight.transport.aircraft import Aircraft
+from fddbench.units import DEG_PER_RAD
 
-__all__ = ["LawConstants", "LawState", "Orders", "TransportLaw"]
+__all__ = ["GUIDANCE", "LawConstants", "LawState", "Orders", "TransportLaw"]
 
 DELAY_S = 0.06
 
@@ -61,11 +64,21 @@ class LawConstants:
 
 
 class Orders(NamedTuple):
-    """Orders to 13 lateral surfaces, both elevators and the stabiliser [deg], (16, n_cases), and to the engines [-]."""
+    """Orders to 13 lateral surfaces, both elevators and the stabiliser [deg], (16, n_cases), and to the engines [-].
+
+    `guidance` is what they follow and within which bounds, by the names of `GUIDANCE`, to be looked at.
+    """
 
     surface_deg: Rows
     thrust_ratio: Row
-    bank_rad: Row
+    guidance: Mapping[str, Row]
+
+
+GUIDANCE = (
+    *("bank_command_deg", "sideslip_command_deg", "track_command_deg", "n_z_command_g", "v_cas_command_kt"),
+    *("n_z_least_g", "n_z_most_g", "alpha_limit_deg", "theta_limit_deg", "v_cas_limit_kt"),
+)
+"""Commands, then limits. Where no track, or no airspeed, is held, its command is what is flown."""
 
 
 _ONE = LongitudinalState(limited_g=ROW, followed_g=ROW, expected_g=ROW, integral_g_s=ROW, stabiliser_deg=ROW)
@@ -122,9 +135,11 @@ class TransportLaw:
         k = self.gains.at(s.scheduled_pa)
         pedals = np.minimum(np.maximum(asked.pedals, -c.sideslip_deg), c.sideslip_deg)
         lateral, across = lateral_law(x.lateral, s, asked, pedals, k, self.steady, T)
-        longitudinal, along, too_fast = self._pitch(x, c, s, asked, k)
+        longitudinal, along, allowed, wanted_g = self._pitch(x, c, s, asked, k)
         speed, rate = c.v_cas_kt + asked.speed * c.speed_kt, asked.speed_rate * c.speed_kt
-        integral, thrust = autothrust(aircraft, x.speed_integral_m, s, asked, speed, rate, c.thrust_ratio, too_fast, T)
+        integral, thrust = autothrust(
+            aircraft, x.speed_integral_m, s, asked, speed, rate, c.thrust_ratio, allowed.too_fast, T
+        )
         roll, roll_deg = ring(x.roll, across.roll_deg, sample)
         rudder, rudder_deg = ring(x.rudder, across.rudder_deg, sample)
         elevator, elevator_deg = ring(x.elevator, along.elevator_deg, sample)
@@ -137,13 +152,25 @@ class TransportLaw:
         surfaces = np.concatenate(
             [allocate(rudder_deg, roll_deg), np.stack([elevator_deg, elevator_deg, stabiliser_deg])]
         )
-        return after, Orders(surfaces, thrust_ratio, across.bank_rad)
+        guidance = (
+            DEG_PER_RAD * across.bank_rad,
+            pedals,
+            np.where(asked.track_held > 0.5, asked.track, DEG_PER_RAD * s.track_rad),
+            wanted_g,
+            np.where(asked.autothrust > 0.5, speed, s.v_cas_kt),
+            allowed.least_g,
+            allowed.most_g,
+            DEG_PER_RAD * allowed.alpha_rad,
+            DEG_PER_RAD * allowed.theta_rad,
+            allowed.v_cas_kt,
+        )
+        return after, Orders(surfaces, thrust_ratio, dict(zip(GUIDANCE, guidance, strict=True)))
 
     def _pitch(
         self, x: LawState, c: LawConstants, s: Sensed, asked: Commands, k: Gains
-    ) -> tuple[LongitudinalState, Any, Row]:
+    ) -> tuple[LongitudinalState, PitchOrders, Bounds, Row]:
         stick = asked.stick * c.stick_ratio
         wanted = load_factor_asked(s, asked, stick, c.alpha_rad, c.altitude_m)
         allowed = bounds(self.aircraft, s, stick, c.alpha_rad)
         after, orders = longitudinal_law(x.longitudinal, s, wanted, allowed, k, self.aircraft.actuators, self.sample_s)
-        return after, orders, allowed.too_fast
+        return after, orders, allowed, wanted

@@ -114,6 +114,7 @@ class TransportLoop:
             v_tas_m_s=plant.constants.v_tas_m_s,
             scale_ratio=flights.parameters["gust_scale_ratio"],
             altitude_m=flights.parameters["altitude_ft"] * FT_M,
+            gradient_m=flights.parameters["gust_gradient_m"],
             span_m=self.plant.aircraft.geometry.span_m,
         )
         wind = self.wind.prepare(flights.normals, meets, self.sample_s)
@@ -181,7 +182,7 @@ class TransportLoop:
         }
         return Sample(
             measured=seen,
-            truth=truth(motion, gust_m_s, orders.bank_rad),
+            truth=truth(motion, gust_m_s, orders.guidance),
             departed=departed(self.plant.aircraft, motion),
             added=added,
             voted=errors,

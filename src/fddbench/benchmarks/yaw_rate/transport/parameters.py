@@ -7,6 +7,13 @@ __all__ = ["PARAMETERS"]
 
 PARAMETERS: tuple[Parameter, ...] = (
     *LATERAL,
+    Parameter(
+        name="gust_gradient_m",
+        about="distance from the beginning of the one-minus-cosine gust to its peak",
+        default=107.0,
+        low=9.0,
+        high=107.0,
+    ),
     *(
         Parameter(
             name=f"delta_c_{axis}_percent",

@@ -27,11 +27,17 @@ _SPEED_MARGIN_KT, _MACH_MARGIN, _SPEED_LEAD_S, _SPEED_GAIN_G_KT = 6.0, 0.01, 6.0
 
 
 class Bounds(NamedTuple):
-    """Load factor that is allowed [g], and whether the airspeed asks for idle."""
+    """Load factor that is allowed [g], and whether the airspeed asks for idle; what it comes from.
+
+    That is the highest incidence and pitch angle [rad] and airspeed [kt].
+    """
 
     least_g: Row
     most_g: Row
     too_fast: Row
+    alpha_rad: Row
+    theta_rad: Row
+    v_cas_kt: Row
 
 
 def protected_alpha_rad(aircraft: Aircraft, mach: Row, trim_alpha_rad: Row) -> tuple[Row, Row]:
@@ -66,4 +72,7 @@ def bounds(aircraft: Aircraft, s: Sensed, stick_g: Row, trim_alpha_rad: Row) -> 
         least_g=np.maximum(np.maximum(by_dive, by_speed), _LEAST_G),
         most_g=np.minimum(np.minimum(by_alpha, by_pitch), _MOST_G),
         too_fast=beyond > 0.0,
+        alpha_rad=highest,
+        theta_rad=up,
+        v_cas_kt=fastest,
     )

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from fddbench.benchmarks.yaw_rate.transport.law import GUIDANCE
 from fddbench.benchmarks.yaw_rate.transport.plant import PlantConstants
 from fddbench.benchmarks.yaw_rate.transport.sensed import Sensed
 from fddbench.benchmarks.yaw_rate.transport.sensors import Readings
@@ -14,9 +15,10 @@ from fddbench.flight.atmosphere import FT_M, dynamic_pressure_pa, true_airspeed_
 from fddbench.flight.transport.aircraft import Aircraft
 from fddbench.flight.transport.limits import highest_alpha_rad
 from fddbench.flight.transport.motion import Motion
+from fddbench.interfaces import Response
 from fddbench.units import DEG_PER_RAD, RAD_PER_DEG
 
-__all__ = ["TRUTH", "VOTED", "Voted", "departed", "measured", "sensed", "signals", "truth"]
+__all__ = ["RESPONSES", "TRUTH", "VOTED", "Voted", "departed", "measured", "sensed", "signals", "truth"]
 
 TRUTH = (
     *(
@@ -27,10 +29,25 @@ TRUTH = (
         "psi_deg",
         "y_m",
         "gust_m_s",
-        "bank_command_deg",
     ),
     *("theta_true_deg", "alpha_true_deg", "q_true_deg_s", "n_z_true_g", "altitude_true_ft", "v_cas_true_kt", "mach"),
+    *GUIDANCE,
 )
+RESPONSES = (
+    Response(signal="p_true_deg_s"),
+    Response(signal="r_true_deg_s"),
+    Response(signal="beta_true_deg", command="sideslip_command_deg"),
+    Response(signal="phi_true_deg", command="bank_command_deg"),
+    Response(signal="psi_deg", command="track_command_deg"),
+    Response(signal="y_m"),
+    Response(signal="theta_true_deg", limits=("theta_limit_deg",)),
+    Response(signal="n_z_true_g", command="n_z_command_g", limits=("n_z_least_g", "n_z_most_g")),
+    Response(signal="alpha_true_deg", limits=("alpha_limit_deg",)),
+    Response(signal="v_cas_true_kt", command="v_cas_command_kt", limits=("v_cas_limit_kt",)),
+    Response(signal="altitude_true_ft"),
+    Response(signal="thrust_ratio"),
+)
+"""What a pilot looks at: first the six lateral signals of Figures 9 and 10 of the paper, then the longitudinal ones."""
 _MOST_BANK, _MOST_PITCH, _MOST_SIDESLIP = (RAD_PER_DEG * each for each in (90.0, 60.0, 20.0))
 _BEYOND_BUFFET, _BELOW_ZERO_LIFT = RAD_PER_DEG * 8.0, RAD_PER_DEG * 12.0
 
@@ -113,13 +130,14 @@ def sensed(bus: SimpleNamespace, motion: Motion) -> Sensed:
     )
 
 
-def truth(motion: Motion, gust_m_s: Row, bank_rad: Row) -> dict[str, Rows]:
-    """What nobody measures, by the names of `TRUTH`."""
+def truth(motion: Motion, gust_m_s: Row, guidance: Mapping[str, Row]) -> dict[str, Rows]:
+    """What nobody measures, by the names of `TRUTH`; `guidance` is what the law follows."""
     m = motion
     degrees = (m.phi_rad, m.beta_rad, m.p_rad_s, m.r_rad_s, m.psi_rad)
-    first = (*(DEG_PER_RAD * each for each in degrees), m.east_m, gust_m_s, DEG_PER_RAD * bank_rad)
+    first = (*(DEG_PER_RAD * each for each in degrees), m.east_m, gust_m_s)
     pitch = tuple(DEG_PER_RAD * each for each in (m.theta_rad, m.alpha_rad, m.q_rad_s))
-    return dict(zip(TRUTH, (*first, *pitch, m.n_z_g, m.altitude_m / FT_M, m.v_cas_kt, m.mach), strict=True))
+    own = (*first, *pitch, m.n_z_g, m.altitude_m / FT_M, m.v_cas_kt, m.mach)
+    return dict(zip(TRUTH, own, strict=False)) | dict(guidance)
 
 
 def departed(aircraft: Aircraft, m: Motion) -> Row:
