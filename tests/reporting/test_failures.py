@@ -18,8 +18,19 @@ def test_bins_count_every_decided_faulty_flight_once(rows):
         for line in table["lines"]:
             counts = [cell.small.split(":")[0].split(" of ") for cell in line[1:] if cell.small]
             wrong, flights = (sum(int(pair[i]) for pair in counts) for i in (0, 1))
-            assert flights == 80
-            assert wrong == (40 if line[0].text == "voting_monitor" else 0)
+            assert flights == 40
+            pair = line[0].small == "2 faulty sites"
+            assert wrong == (40 if line[0].text == "voting_monitor" and pair else 0)
+
+
+def test_of_grid_values_that_vary_together_there_is_one_table(rows):
+    level = rows["run"].to_numpy(dtype=np.int64) % 3
+    more = rows.assign(
+        p_gust_scale_ratio=level / 2.0, p_mass_error_percent=10.0 * level, p_x_cg_error_percent=-1.0 * level
+    )
+    heads = [table["heads"] for table in failure_tables(more, AXES)]
+    assert [head[0] for head in heads[4:]] == ["gust scale [-]", "x cg error [%]"]
+    assert heads[4][1:] == ("0", "0.5", "1")
 
 
 def test_nothing_wrong_is_no_table(rows):

@@ -58,13 +58,14 @@ def _summary(folder: Path, *, wide: bool) -> None:
     from fddbench.results.table import read_rows
     from fddbench.results.whole import holdings
 
-    rows, own, found = read_rows(folder, ["case", "reason", *NEEDS]), in_sample(folder), holdings(folder)
+    rows, own, found = read_rows(folder, ["reason", *NEEDS]), in_sample(folder), holdings(folder)
     if found.partial:
         print(f"not the whole campaign: {found.sentence}")
     print(to_text(summarize(rows, in_sample=own), summarize_alarms(rows, in_sample=own), wide=wide))
     failed = rows[~rows["status"].isin(["ok", "infeasible"])]
     for (detector, status, reason), group in failed.groupby(["detector", "status", "reason"], dropna=False):
-        cases = ", ".join(str(case) for case in group["case"].head(3))
+        first = group[["scenario", "point", "level", "run"]].head(3)
+        cases = ", ".join("/".join(map(str, address)) for address in first.itertuples(index=False))
         print(f"{status}: {detector}, {len(group)} flights (case {cases}{', ...' if len(group) > 3 else ''}): {reason}")
 
 

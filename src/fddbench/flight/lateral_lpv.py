@@ -67,7 +67,7 @@ def derivatives(
 def lateral_lpv() -> LateralLpv:
     """The model as published, read once."""
     text = (Path(__file__).parent / "data" / "addsafe_lateral.yaml").read_text(encoding="utf-8")
-    data: dict[str, Any] = yaml.safe_load(text)
+    data: dict[str, Any] = yaml.load(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
     return LateralLpv(
         tables={"A": column(data["A"]), "B": column(data["B"])},
         names=SCHEDULING,

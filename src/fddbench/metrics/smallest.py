@@ -23,7 +23,6 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.optimize import isotonic_regression
 
 from fddbench.interfaces import Floats
 from fddbench.metrics.clustered import PooledShare, korn_graubard
@@ -88,6 +87,8 @@ def smallest_found(size: Floats, found: npt.NDArray[np.bool_], run: Any, *, shar
         return Smallest(flights=n, found=hits)
     groups = _groups(np.asarray(size, dtype=float))
     shares, counts = [np.mean(found[group]) for group in groups], [len(group) for group in groups]
+    from scipy.optimize import isotonic_regression  # takes as long as many a campaign flies, and few ask for maps
+
     monotone = isotonic_regression(shares, weights=counts, increasing=False).x
     enough = int(np.sum(monotone >= share - _ROUNDING))
     last = max(enough - 1, 0)

@@ -94,10 +94,11 @@ def summarize(rows: pd.DataFrame, *, in_sample: Collection[str] = ()) -> pd.Data
     DataFrame
         One line per scenario and detector. Where nothing was flown counts are 0 and rates null.
     """
-    groups = dict(list(rows.groupby(["scenario", "detector"], sort=False)))
+    # places, not groups: all groups at once would be a second table
+    groups = rows.groupby(["scenario", "detector"], sort=False).indices
     pairs = [(scenario, detector) for scenario in rows["scenario"].unique() for detector in rows["detector"].unique()]
     lines = [
-        {"scenario": a, "detector": b, "in_sample": b in in_sample} | _line(groups[a, b])
+        {"scenario": a, "detector": b, "in_sample": b in in_sample} | _line(rows.iloc[groups[a, b]])
         for a, b in pairs
         if (a, b) in groups
     ]

@@ -18,30 +18,44 @@ __all__ = ["WORST", "failure_tables", "worst_lines"]
 WORST = ("flight", "detector", "outcome", "time [s]", "margin", "flown at", "again")
 """Heads of what `worst_lines` gives."""
 
-_BINS, _LEAST_PLACES = 4, 8
+_BINS, _FEW, _LEAST_PLACES = 4, 8, 8
 _WRONG = ("false_alarm", "wrong_site", "late", "missed")
 _MOST, _MOST_OF_SCENARIO = 10, 2
 
 
 def failure_tables(rows: pd.DataFrame, axes: Sequence[tuple[str, str]]) -> list[dict[str, Any]]:
-    """By parameter of the envelope, a line per detector: share of decided faulty flights that were not right, in bins."""
+    """Share of decided faulty flights that were not right over parameters of the envelope, and of the grid.
+
+    A line per detector and number of faulty sites; none where nothing went wrong or where hardly any flights differ.
+    """
     flown = rows[np.asarray((rows["status"] == "ok") & (rows["n_faulty"] > 0), dtype=bool)]
     sure = flown[decided(flown)]
-    names = [f"p_{name}" for pair in axes for name in pair if f"p_{name}" in rows]
-    names = [name for name in names if sure[name].nunique() > 1]
+    names = _parameters(sure, axes)
     outcome = np.asarray(sure["outcome"], dtype=object)
     if len(sure.drop_duplicates(["point", "run"])) < _LEAST_PLACES or not np.any(np.isin(outcome, _WRONG)):
         return []
     return [_binned(sure, name) for name in names]
 
 
+def _parameters(sure: pd.DataFrame, axes: Sequence[tuple[str, str]]) -> list[str]:
+    """Columns of the envelope, then those of few values, of several that vary together the first."""
+    asked = [f"p_{name}" for pair in axes for name in pair if f"p_{name}" in sure]
+    others = [name for name in sure.columns if name.startswith("p_") and name not in asked]
+    few = [name for name in others if 1 < sure[name].nunique() <= _FEW]
+    alike: dict[tuple[int, ...], str] = {}
+    for name in few:
+        alike.setdefault(tuple(np.unique(_numbers(sure, name), return_inverse=True)[1].tolist()), name)
+    return [name for name in asked if sure[name].nunique() > 1] + list(alike.values())
+
+
 def _binned(sure: pd.DataFrame, name: str) -> dict[str, Any]:
     values = _numbers(sure, name)
     places, heads = _places(values)
     lines = []
-    for detector in sure["detector"].unique():
-        own = np.asarray(sure["detector"] == detector, dtype=bool)
-        cells = [Cell(str(detector))]
+    numbers = sorted(int(n) for n in sure["n_faulty"].unique())
+    for detector, n_faulty in ((name, n) for name in sure["detector"].unique() for n in numbers):
+        own = np.asarray((sure["detector"] == detector) & (sure["n_faulty"] == n_faulty), dtype=bool)
+        cells = [Cell(str(detector), f"{n_faulty} faulty site{'s' if n_faulty > 1 else ''}")]
         for i in range(len(heads)):
             here = sure[own & (places == i)]
             wrong = np.isin(np.asarray(here["outcome"], dtype=object), _WRONG)
@@ -53,7 +67,7 @@ def _binned(sure: pd.DataFrame, name: str) -> dict[str, Any]:
 def _places(values: Floats) -> tuple[npt.NDArray[np.int64], list[str]]:
     """Bin of each flight, and what the bins are called: the values themselves where there are few, else of equal widths."""
     few = np.unique(values)
-    if len(few) <= _BINS + 1:
+    if len(few) <= _FEW:
         return np.searchsorted(few, values), [f"{value:.6g}" for value in few]
     edges = np.linspace(few[0], few[-1], _BINS + 1)
     names = [f"{_number(edges[i])} … {_number(edges[i + 1])}" for i in range(_BINS)]

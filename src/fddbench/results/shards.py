@@ -15,7 +15,7 @@ import pyarrow.parquet as pq
 from fddbench.errors import ResultsError
 from fddbench.results.schema import SCHEMA_VERSION
 
-__all__ = ["file_sha256", "is_durable", "read_table", "write_bytes", "write_table"]
+__all__ = ["file_sha256", "is_durable", "open_table", "read_columns", "write_bytes", "write_table"]
 
 _SCHEMA, _FINGERPRINT = b"fddbench_schema", b"fddbench_fingerprint"
 _NO_SYNC = {errno.EINVAL, errno.EBADF, errno.ENOTSUP, errno.EOPNOTSUPP, errno.ENOSYS, errno.EACCES, errno.EPERM}
@@ -53,10 +53,8 @@ def write_table(path: Path, table: pa.Table, *, fingerprint: str) -> str:
     return hashlib.sha256(data).hexdigest()
 
 
-def read_table(
-    path: Path, sha256: str, *, schema: pa.Schema, fingerprint: str, columns: Sequence[str] | None = None
-) -> pa.Table:
-    """Table of a shard, all of it or some columns.
+def open_table(path: Path, sha256: str, *, schema: pa.Schema, fingerprint: str) -> pq.ParquetFile:
+    """Table of a shard, ready to be read column by column.
 
     Parameters
     ----------
@@ -66,8 +64,6 @@ def read_table(
         Columns that it has, maybe among others.
     fingerprint : str
         What it carries.
-    columns : sequence of str, optional
-        Only these.
 
     Raises
     ------
@@ -79,12 +75,33 @@ def read_table(
         state = "is missing" if data is None else "is not the file that was written (its sha256 differs)"
         raise ResultsError(f"{path} {state}; run the campaign again on this folder, it flies again what is lost")
     try:
-        _require(path, pq.read_schema(pa.BufferReader(data)), schema, fingerprint)
-        chosen = None if columns is None else list(columns)
-        return pq.read_table(pa.BufferReader(data), columns=chosen, page_checksum_verification=True)
+        found = pq.ParquetFile(pa.BufferReader(data), page_checksum_verification=True)
     except (pa.ArrowException, OSError) as error:
-        reason = str(error).splitlines()[0]
-        raise ResultsError(f"{path} is no table of fddbench ({reason}); fly the campaign anew with --fresh") from error
+        raise _no_table(path, error) from error
+    _require(path, found.schema_arrow, schema, fingerprint)
+    return found
+
+
+def read_columns(path: Path, opened: pq.ParquetFile, columns: Sequence[str]) -> pa.Table:
+    """Some columns of the table of a shard.
+
+    Raises
+    ------
+    ResultsError
+        There is no such column, or the file cannot be read.
+    """
+    missing = [name for name in columns if name not in opened.schema_arrow.names]
+    if missing:
+        raise ResultsError(f"{path} has no column {missing[0]!r}; it has {', '.join(opened.schema_arrow.names)}")
+    try:
+        return opened.read(columns=list(columns), use_threads=False)
+    except (pa.ArrowException, OSError) as error:
+        raise _no_table(path, error) from error
+
+
+def _no_table(path: Path, error: Exception) -> ResultsError:
+    reason = str(error).splitlines()[0]
+    return ResultsError(f"{path} is no table of fddbench ({reason}); fly the campaign anew with --fresh")
 
 
 def _require(path: Path, found: pa.Schema, expected: pa.Schema, fingerprint: str) -> None:

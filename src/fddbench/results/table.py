@@ -7,16 +7,20 @@ from typing import Any
 import pandas as pd
 import pyarrow as pa
 import pyarrow.compute as pc
+import pyarrow.parquet as pq
 
 from fddbench.errors import PartialResultsWarning, ResultsError, warn
 from fddbench.results.folder import provenance_of
 from fddbench.results.manifest import shards
 from fddbench.results.schema import CASE, EVENTS, rows_schema
-from fddbench.results.shards import read_table
+from fddbench.results.shards import open_table, read_columns
 from fddbench.results.whole import holdings
 
 __all__ = ["load", "load_events", "named", "read_events", "read_rows"]
 
+Opened = tuple[Path, pq.ParquetFile]
+
+_AT_ONCE = 3  # columns
 _ADDRESS = ("scenario", "point", "level", "run")
 """Columns that name a flight; ``case``, made of them when rows are read, is their text: jam_a/3/0/17."""
 
@@ -67,11 +71,10 @@ def read_rows(folder: Path, columns: Sequence[str] | None = None) -> pd.DataFram
     ResultsError
         As `load`.
     """
-    wanted = None if columns is None else sorted({*columns, *_ADDRESS, "detector"} - {CASE.name})
-    tables = _tables(folder, "rows", rows_schema(()), wanted)
-    if not tables:
+    opened = _opened(folder, "rows", rows_schema(()))
+    if not opened:
         raise ResultsError(f"{folder} holds no rows yet; run the campaign first")
-    return _sorted(tables, folder, columns)
+    return _sorted(opened, folder, opened[0][1].schema_arrow, columns)
 
 
 def read_events(folder: Path) -> pd.DataFrame:
@@ -82,7 +85,7 @@ def read_events(folder: Path) -> pd.DataFrame:
     ResultsError
         As `load`.
     """
-    return _sorted([EVENTS.empty_table(), *_tables(folder, "events", EVENTS)], folder)
+    return _sorted(_opened(folder, "events", EVENTS), folder, EVENTS)
 
 
 def named(table: pa.Table) -> pa.Table:
@@ -100,7 +103,8 @@ def _warn(folder: Path) -> None:
         )
 
 
-def _tables(folder: Path, which: str, schema: pa.Schema, columns: Sequence[str] | None = None) -> list[pa.Table]:
+def _opened(folder: Path, which: str, schema: pa.Schema) -> list[Opened]:
+    """Tables of all shards that have one, ready to be read."""
     listed = provenance_of(folder)["fingerprints"]
     found = []
     for shard in shards(folder):
@@ -112,27 +116,46 @@ def _tables(folder: Path, which: str, schema: pa.Schema, columns: Sequence[str] 
         files = {"rows": (shard.rows, shard.rows_sha256), "events": (shard.events, shard.events_sha256)}
         name, sha256 = files[which]
         if name is not None and sha256 is not None:
-            options: dict[str, Any] = {"schema": schema, "fingerprint": shard.fingerprint, "columns": columns}
-            found.append(read_table(folder / name, sha256, **options))
+            path = folder / name
+            found.append((path, open_table(path, sha256, schema=schema, fingerprint=shard.fingerprint)))
     return found
 
 
-def _sorted(tables: list[pa.Table], folder: Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
-    """Sorted by scenario, point, level, run, detector and event; in Arrow, which copies once."""
-    try:
-        table = pa.concat_tables([each.replace_schema_metadata(None) for each in tables])
-    except pa.ArrowException as error:
-        raise ResultsError(
-            f"the shards of {folder} have different columns; fly the campaign anew with --fresh"
-        ) from error
+def _sorted(
+    opened: Sequence[Opened], folder: Path, schema: pa.Schema, columns: Sequence[str] | None = None
+) -> pd.DataFrame:
+    """Sorted by scenario, point, level, run, detector and event; read a few columns at a time, for each is held twice."""
+    if any(set(each.schema_arrow.names) != set(schema.names) for _, each in opened):
+        raise ResultsError(f"the shards of {folder} have different columns; fly the campaign anew with --fresh")
+    names = schema.names if columns is None else sorted({*columns, *_ADDRESS} - {CASE.name})
+    keys = _read(opened, folder, schema, [name for name in (*_ADDRESS, "detector", "event") if name in schema.names])
     provenance = provenance_of(folder)
-    keys = table.select([name for name in ("point", "level", "run", "event") if name in table.column_names])
     for name, listed in (("scenario", "flights"), ("detector", "designs_sha256")):
-        order: Any = provenance.get(listed) or pc.unique(table[name]).to_pylist()
-        keys = keys.append_column(name, pc.index_in(table[name], value_set=pa.array(list(order), pa.string())))
-    by = [name for name in (*_ADDRESS, "detector", "event") if name in keys.column_names]
-    in_order = named(table.take(pc.sort_indices(keys, sort_keys=[(name, "ascending") for name in by])))
+        order: Any = provenance.get(listed) or pc.unique(keys[name]).to_pylist()
+        place = pc.index_in(keys[name], value_set=pa.array(list(order), pa.string()))
+        keys = keys.set_column(keys.column_names.index(name), name, place)
+    places = pc.sort_indices(keys, sort_keys=[(name, "ascending") for name in keys.column_names])
+    del keys
+    parts = [
+        _read(opened, folder, schema, names[j : j + _AT_ONCE]).take(places) for j in range(0, len(names), _AT_ONCE)
+    ]
+    fields = [field for part in parts for field in part.schema]
+    in_order = pa.table([column for part in parts for column in part.columns], schema=pa.schema(fields))
+    if columns is None or CASE.name in columns:
+        in_order = named(in_order)
     chosen = in_order if columns is None else in_order.select(list(columns))
     frame: pd.DataFrame = chosen.to_pandas(types_mapper=pd.ArrowDtype)
     frame.attrs["columns"] = {field.name: (field.metadata or {}).get(b"about", b"").decode() for field in chosen.schema}
     return frame
+
+
+def _read(opened: Sequence[Opened], folder: Path, schema: pa.Schema, names: Sequence[str]) -> pa.Table:
+    """Some columns of all shards, one after the other."""
+    empty = pa.schema([schema.field(name) for name in names if name in schema.names]).empty_table()
+    tables = [read_columns(path, each, names).replace_schema_metadata(None) for path, each in opened]
+    try:
+        return pa.concat_tables(tables or [empty])
+    except pa.ArrowException as error:
+        raise ResultsError(
+            f"the shards of {folder} have different columns; fly the campaign anew with --fresh"
+        ) from error
