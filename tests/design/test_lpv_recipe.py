@@ -16,7 +16,14 @@ from fddbench.flight.b747.dynamics import derivative
 from fddbench.flight.b747.trim import condition, trim
 from fddbench.scheduling.b747 import B747
 
-SHIPPED = ("lpv_filter_fold", "lpv_filter_approx", "lpv_filter_trim_removed", "lti_filter_b747", "kalman_monitor_b747")
+SHIPPED = (
+    "lpv_filter_fold",
+    "lpv_filter_approx",
+    "lpv_filter_unclipped",
+    "lpv_filter_trim_removed",
+    "lti_filter_b747",
+    "kalman_monitor_b747",
+)
 
 
 def shipped(name):

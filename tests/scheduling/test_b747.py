@@ -9,7 +9,7 @@ from fddbench.design.geometric import residual_generator
 from fddbench.design.geometric.affine import Box, at
 from fddbench.flight.b747.affine_model import affine_model
 from fddbench.flight.b747.scheduling import parameters
-from fddbench.scheduling.b747 import B747
+from fddbench.scheduling.b747 import B747, B747Unclipped
 
 
 def measured(alpha_deg, v_tas_m_s, altitude_m, theta_deg):
@@ -21,6 +21,14 @@ def test_parameters_are_those_of_the_physics_with_gamma_from_pitch_and_incidence
     found = B747().rho(measured(2.0, 220.0, 8000.0, 3.5))
     expected = parameters(*(np.array([x]) for x in (np.deg2rad(2.0), 220.0, 8000.0, np.deg2rad(1.5))))
     np.testing.assert_allclose(found, expected, rtol=1e-12)
+
+
+def test_unclipped_differs_in_the_drag_outside_the_limits_of_table_b1_alone():
+    inside, slow = measured(1.0, 230.0, 8000.0, 1.0), measured(6.0, 160.0, 9000.0, 7.0)
+    np.testing.assert_allclose(B747Unclipped().rho(inside), B747().rho(inside), rtol=1e-14)
+    more = B747Unclipped().rho(slow) / B747().rho(slow)
+    assert more[6, 0] == pytest.approx(1.408, abs=1e-3)
+    np.testing.assert_allclose(np.delete(more, 6, axis=0), 1.0, rtol=1e-14)
 
 
 @pytest.mark.parametrize("variant", ["fold", "approx"])

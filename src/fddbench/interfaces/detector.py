@@ -40,7 +40,9 @@ class Detector(Protocol):
     """A tuned detector: immutable numbers, its state passed in and out.
 
     A class registered under ``fddbench.detectors`` has besides: ``Gains``, the pydantic model of its numbers, and
-    ``from_design(gains, bus)``, which makes the detector for a bus or raises `DesignError`.
+    ``from_design(gains, bus)``, which makes the detector for a bus or raises `DesignError`. Where gains name members of other
+    families, ``Gains.MEMBERS`` says which keys do (``{"scheduling": "scheduling"}``), and the members that are named come as
+    further arguments, ``from_design(gains, bus, scheduling=...)``.
 
     It may have more, and has these otherwise: ``recorded``, the names of what its verdicts show (()); ``watches``, the names
     of the sites it declares (all sites of the bus); ``isolates`` (True; False for one that only detects); ``estimates``, what

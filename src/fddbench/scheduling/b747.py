@@ -7,12 +7,13 @@ from typing import ClassVar
 import numpy as np
 
 from fddbench.blocks.layout import Rows
+from fddbench.flight.b747.aerodynamics import air, coefficients, drag_coefficient
 from fddbench.flight.b747.affine_model import Variant, affine_model
 from fddbench.flight.b747.scheduling import BOX, PARAMETERS, parameters
 from fddbench.interfaces import AffineModel, Channel
 from fddbench.units import RAD_PER_DEG
 
-__all__ = ["B747"]
+__all__ = ["B747", "B747Unclipped"]
 
 
 def _model(variant: Variant) -> AffineModel:
@@ -56,3 +57,20 @@ class B747:
         """Parameters in their units, (9, n_cases)."""
         alpha_rad, theta_rad = measured.alpha_deg * RAD_PER_DEG, measured.theta_deg * RAD_PER_DEG
         return parameters(alpha_rad, measured.v_tas_m_s, measured.altitude_m, theta_rad - alpha_rad)
+
+
+class B747Unclipped(B747):
+    """The same with the drag of the whole basic lift in the seventh parameter, ours.
+
+    Table B1 shows that parameter with a lift that is held between 0.26 and 0.49. An aircraft that flies slower, higher or
+    deeper than that has another drag, which the filters take for thrust: 29 kN per engine at 9000 m and 160 m/s.
+    """
+
+    about = "Boeing 747-100/200: as b747, with the drag of the whole lift, outside the limits of Table B1 too"
+
+    def rho(self, measured: SimpleNamespace) -> Rows:
+        """Parameters in their units, (9, n_cases)."""
+        rho = super().rho(measured)
+        found = coefficients(measured.alpha_deg * RAD_PER_DEG, measured.v_tas_m_s, air(measured.altitude_m))
+        drag = drag_coefficient(found.basic_lift, found.mach) * found.q_pa
+        return np.stack([*(rho[j] for j in range(6)), drag, rho[7], rho[8]])

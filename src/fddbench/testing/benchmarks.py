@@ -99,17 +99,24 @@ def check_benchmark(name: str, *, beside: str | Path = ".", duration_s: float = 
     """
     folder = Path(beside)
     benchmark: Benchmark = kinds.find("benchmark", name, beside=folder).member()
-    plant = benchmark.plant(default_choices(benchmark))
+    with tempfile.TemporaryDirectory() as made:
+        where = _folder(Path(made), name, folder, half=round(duration_s / 2.0 / _SAMPLE_S))
+        for chosen in _one_by_one(benchmark):
+            plant = _plant(benchmark, chosen, name)
+            path = where / "check.yaml"
+            path.write_text(canonical_text(_campaign(name, plant, chosen, duration_s)), encoding="utf-8")
+            _fly(path, chosen)
+
+
+def _plant(benchmark: Benchmark, chosen: dict[str, str], name: str) -> Plant:
+    """What flies with these choices; whatever is chosen may bring its own parameters, sites and manoeuvres."""
+    members = {key: benchmark.choices[key].options[option] for key, option in chosen.items()}
+    plant = benchmark.plant({**default_choices(benchmark), **members})
     for parameter in plant.parameters:
         inside = parameter.low <= parameter.default <= parameter.high
         require(inside, f"the default of {parameter.name}, {parameter.default:g}, is outside of its own limits")
     require(plant.sites, f"benchmark {name!r} has no fault site")
-    with tempfile.TemporaryDirectory() as made:
-        where = _folder(Path(made), name, folder, half=round(duration_s / 2.0 / _SAMPLE_S))
-        for chosen in _one_by_one(benchmark):
-            path = where / "check.yaml"
-            path.write_text(canonical_text(_campaign(name, plant, chosen, duration_s)), encoding="utf-8")
-            _fly(path, chosen)
+    return plant
 
 
 def _folder(made: Path, name: str, beside: Path, *, half: int) -> Path:

@@ -118,3 +118,20 @@ def test_what_is_not_known_of_the_aircraft_biases_the_estimates(change, site, sh
     found = [seen.detectors[name][estimate][counted].mean() / size - 1.0 for name in names]
     assert found[0] == pytest.approx(share, abs=0.015)
     assert abs(found[1]) < 0.02
+
+
+def test_a_trim_change_of_300_s_looks_like_a_fault_unless_drag_or_offset_are_taken_care_of():
+    """A descent leaves the lift that Table B1 knows: 4.5 kN of thrust that is not there."""
+    names = ("lpv_filter_fold", "lpv_filter_approx", "lpv_filter_trim_removed", "lpv_filter_unclipped")
+    changes = [
+        f"detectors=[{', '.join(names)}]",
+        "dispersions={}",
+        "duration_s=400",
+        "scenarios.healthy.manoeuvre=descent",
+    ]
+    campaign = read_campaign(gallery.folder("campaigns") / "b747_coefficients.yaml", changes)
+    seen = fddbench.signals(campaign, "healthy").detectors
+    peaks_n = [np.abs(seen[name]["estimate_thrust"]).max() for name in names]
+    assert min(peaks_n[:2]) > 4000.0
+    assert peaks_n[2] < 1500.0
+    assert peaks_n[3] < 100.0
