@@ -152,3 +152,11 @@ def test_doublets_of_the_stick(flown):
     pulled = gained(signals, "n_z_true_g")
     assert pulled[:1500].max() == pytest.approx(0.3, abs=0.12)
     assert pulled[3000:4000].min() == pytest.approx(-0.3, abs=0.15)
+
+
+def test_heading_goes_on_beyond_half_a_turn(six):
+    slow = np.array([[150e3], [0.3], [10e3], [200.0]])
+    _, signals = six.fly(six.loop(sensors="ideal"), slow, "roll_protection", seconds=120.0)
+    psi = signals["psi_deg"][:, 0]
+    assert psi[-1] > 200.0
+    assert np.abs(np.diff(psi)).max() < 0.1

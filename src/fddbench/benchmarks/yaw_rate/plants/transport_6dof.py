@@ -1,6 +1,7 @@
 """The public twin-jet with six degrees of freedom, for the whole envelope."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -50,7 +51,7 @@ class Transport6Dof:
     responses: tuple[Response, ...] = RESPONSES
     aircraft: Aircraft = twin_jet()
     gains: Schedule = shipped_law()
-    states = Layout(PlantState(rigid=ROWS))
+    states = Layout(PlantState(rigid=ROWS, psi_rad=ROW, turns=ROW))
     constants = Layout(
         PlantConstants(
             body=BODY, begun=ROWS, v_tas_m_s=ROW, mass_measured_kg=ROW, x_cg_measured_ratio=ROW, one_altitude=ROW,
@@ -110,7 +111,7 @@ class Transport6Dof:
 
     def start(self, c: PlantConstants) -> PlantState:
         """In trim, northbound."""
-        return PlantState(rigid=c.begun)
+        return PlantState(rigid=c.begun, psi_rad=0.0, turns=0.0)
 
     def step(
         self, x: PlantState, c: PlantConstants, n: Nothing, controls: Controls, moving: AirMotion, thrust_ratio: Row
@@ -126,4 +127,9 @@ class Transport6Dof:
 
         flown = rk4(rate, x.rigid, step_s=self.sample_s, substeps=self.substeps)
         felt = forces(aircraft, c.body, air, begun, controls, moving, thrust_ratio)
-        return PlantState(rigid=normalised(flown)), motion_of(begun, air, felt)
+        motion = motion_of(begun, air, felt)
+        # a heading that goes on beyond half a turn
+        moved = motion.psi_rad - x.psi_rad
+        turns = x.turns + np.where(moved < -np.pi, 1.0, 0.0) - np.where(moved > np.pi, 1.0, 0.0)
+        after = PlantState(rigid=normalised(flown), psi_rad=motion.psi_rad, turns=turns)
+        return after, replace(motion, psi_rad=motion.psi_rad + 2.0 * np.pi * turns)

@@ -21,9 +21,11 @@ BODY = Body(**dict.fromkeys(Body.__dataclass_fields__, ROW))
 
 @record
 class PlantState:
-    """Rows of the rigid body, as `fddbench.flight.transport.equations.State`."""
+    """Rows of the rigid body, as `fddbench.flight.transport.equations.State`; heading of the sample before, turns flown [-]."""
 
     rigid: Rows
+    psi_rad: Row
+    turns: Row
 
 
 @record
