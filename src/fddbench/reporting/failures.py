@@ -79,9 +79,8 @@ def _failed(wrong: npt.NDArray[np.bool_], runs: Any) -> Cell:
         return Cell(DASH)
     of = share("x", wrong, runs)
     ends = interval(of["x_low_percent"], of["x_high_percent"])
-    return Cell(
-        f"{percent(of['x_percent'])} %", f"{count(wrong.sum())} of {count(len(wrong))}{f': {ends}' if ends else ''}"
-    )
+    counts = f"{count(wrong.sum())} of {count(len(wrong))}{f': {ends}' if ends else ''}"
+    return Cell(f"{percent(of['x_percent'])} %", counts, alarm=bool(wrong.any()))
 
 
 def worst_lines(rows: pd.DataFrame, axes: Sequence[tuple[str, str]], folder: str) -> list[list[Cell]]:
