@@ -31,7 +31,7 @@ TWO_IN_YAW = tuple(
 )
 BOX = {"mass_kg": [180000, 220000], "x_cg_ratio": [0.27, 0.33], "altitude_ft": [15000, 25000], "v_cas_kt": [260, 300]}
 _HEAD = """# Why the published scheme does not hold on transport_6dof: each reason switched off.
-# Made by python -m tests.bench.reasons; not_right: decided flights with a healthy site declared, late or missed; 95 % intervals by run
+# Made by python -m tests.bench.reasons; not_right: decided flights that are wrong, late or missed; 95 % intervals by run.
 """
 
 
