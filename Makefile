@@ -12,7 +12,7 @@ demo: $(VENV)/ready
 	$(BIN)/fddbench report results/smoke_6dof
 
 test: $(VENV)/ready-dev lint
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n auto
 
 lint: $(VENV)/ready-dev
 	$(BIN)/ruff format --check src tests detectors
