@@ -19,6 +19,7 @@ def test_bins_count_every_decided_faulty_flight_once(rows):
             counts = [cell.small.split(":")[0].split(" of ") for cell in line[1:] if cell.small]
             wrong, flights = (sum(int(pair[i]) for pair in counts) for i in (0, 1))
             assert flights == 40
+            assert all(cell.alarm == (not cell.small.startswith("0 of")) for cell in line[1:] if cell.small)
             pair = line[0].small == "2 faulty sites"
             assert wrong == (40 if line[0].text == "voting_monitor" and pair else 0)
 

@@ -13,6 +13,7 @@ from fddbench.campaign.meaning import Campaign
 from fddbench.reporting.bands import names_in
 from fddbench.reporting.page import ReportData
 from fddbench.reporting.published import iterations_for, published_for
+from fddbench.reporting.reasons import reason_table
 from fddbench.results.folder import provenance_of
 from fddbench.results.table import read_events, read_rows
 from fddbench.results.whole import holdings
@@ -66,6 +67,7 @@ def report_data(folder: Path) -> ReportData:
         recordings=list(replay_campaign(campaign, chosen, seconds=_seconds(rows), signals=bench.shown)),
         **_bands(campaign, rows, content),
         folder=folder.as_posix(),
+        reasons=reason_table(campaign.name, campaign.sha256),
         published=published_for(content, getattr(bench, "published", "")),
         iterations=iterations_for(getattr(bench, "iterations", "")),
         envelope_axes=getattr(bench, "envelope_axes", ()),

@@ -53,8 +53,8 @@ def calibrated_kt(mach: Row, pressure_pa: Row) -> Row:
     return (_SOUND0_M_S / KT_M_S) * np.sqrt(5.0 * at_sea_level)
 
 
-def motion_of(x: State, air: AirAround, f: Forces) -> Motion:
-    """Motion of a state in the air around it, with the forces there."""
+def motion_of(x: State, air: AirAround, f: Forces, wind_north_m_s: Row, wind_east_m_s: Row) -> Motion:
+    """Motion of a state in the air around it, with the forces there; a steady wind is in the track only."""
     phi, theta, psi = euler_rad(x)
     density, temperature = air.at(x.altitude)
     north, east, down = to_earth(x)
@@ -69,7 +69,7 @@ def motion_of(x: State, air: AirAround, f: Forces) -> Motion:
         phi_rad=phi,
         theta_rad=theta,
         psi_rad=psi,
-        track_rad=atan2(east, north),
+        track_rad=atan2(east + wind_east_m_s, north + wind_north_m_s),
         alpha_rad=flow.alpha_rad,
         # arc sine to the fifth order: 1e-6 deg at 5 deg
         beta_rad=_small_asin(flow.sin_beta),

@@ -209,3 +209,14 @@ def test_turbulence_of_the_lateral_wind_comes_in_six_components(six):
     assert not signals["departed"].any()
     assert 0.03 < (signals["n_z_true_g"] - 1.0).std() < 0.15
     assert 0.1 < signals["beta_true_deg"].std() < 1.0
+
+
+def test_a_steady_wind_carries_the_aircraft_along_and_is_held_against(six):
+    condition = np.repeat(CENTRE, 3, axis=1)
+    winds = {"cross_wind_kt": [0.0, 40.0, 40.0], "tail_wind_kt": [0.0, 0.0, -80.0]}
+    _, signals = six.fly(six.loop(sensors="ideal"), condition, "cruise", seconds=30.0, **winds)
+    assert signals["y_m"][-1] == pytest.approx([0.0, 617.3, 617.3], abs=0.5)
+    assert np.abs(signals["phi_true_deg"]).max() < 1e-6  # what is held is the track that the wind makes
+    assert np.abs(signals["v_cas_true_kt"] - 290.0).max() < 1e-6
+    _, signals = six.fly(six.loop(sensors="ideal"), condition, "yaw_angle_mode", seconds=30.0, **winds)
+    assert (np.abs(signals["psi_deg"][-1] - 10.0) < 4.0).all()

@@ -16,10 +16,10 @@ from fddbench.benchmarks.yaw_rate.transport.plant import BODY, PlantConstants, P
 from fddbench.benchmarks.yaw_rate.transport.profiles import DURATIONS_S, number_of
 from fddbench.benchmarks.yaw_rate.transport.seeing import RESPONSES
 from fddbench.blocks.block import NO_DRAWS
-from fddbench.blocks.functions import cos
+from fddbench.blocks.functions import atan2, cos
 from fddbench.blocks.integrate import rk4
 from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows
-from fddbench.flight.atmosphere import FT_M, true_airspeed_m_s
+from fddbench.flight.atmosphere import FT_M, KT_M_S, true_airspeed_m_s
 from fddbench.flight.transport.aerodynamics import Controls
 from fddbench.flight.transport.air import air_around
 from fddbench.flight.transport.aircraft import Aircraft
@@ -54,8 +54,8 @@ class Transport6Dof:
     states = Layout(PlantState(rigid=ROWS, psi_rad=ROW, turns=ROW))
     constants = Layout(
         PlantConstants(
-            body=BODY, begun=ROWS, v_tas_m_s=ROW, mass_measured_kg=ROW, x_cg_measured_ratio=ROW, one_altitude=ROW,
-            one_v_cas=ROW, law=TransportLaw.constants.shape,
+            body=BODY, begun=ROWS, v_tas_m_s=ROW, wind_north_m_s=ROW, wind_east_m_s=ROW, track_rad=ROW,
+            mass_measured_kg=ROW, x_cg_measured_ratio=ROW, one_altitude=ROW, one_v_cas=ROW, law=TransportLaw.constants.shape,
         )
     )  # fmt: skip
     draws = NO_DRAWS
@@ -103,8 +103,10 @@ class Transport6Dof:
             v_cas_kt=v_cas,
             **sizes(aircraft, manoeuvres, mass, altitude, v_cas),
         )
+        north, east = (KT_M_S * parameters[name] for name in ("tail_wind_kt", "cross_wind_kt"))
         constants = PlantConstants(
-            body=body, begun=at.rows(), v_tas_m_s=v_tas, mass_measured_kg=mass * one["mass"],
+            body=body, begun=at.rows(), v_tas_m_s=v_tas, wind_north_m_s=north, wind_east_m_s=east,
+            track_rad=atan2(east, v_tas + north), mass_measured_kg=mass * one["mass"],
             x_cg_measured_ratio=x_cg * one["x_cg"], one_altitude=one["altitude"], one_v_cas=one["v_cas"], law=law,
         )  # fmt: skip
         return Prepared(constants=constants, infeasible_reason=reasons(aircraft, manoeuvres, mass, altitude, v_cas))
@@ -127,9 +129,12 @@ class Transport6Dof:
 
         flown = rk4(rate, x.rigid, step_s=self.sample_s, substeps=self.substeps)
         felt = forces(aircraft, c.body, air, begun, controls, moving, thrust_ratio)
-        motion = motion_of(begun, air, felt)
+        motion = motion_of(begun, air, felt, c.wind_north_m_s, c.wind_east_m_s)
         # a heading that goes on beyond half a turn
         moved = motion.psi_rad - x.psi_rad
         turns = x.turns + np.where(moved < -np.pi, 1.0, 0.0) - np.where(moved > np.pi, 1.0, 0.0)
-        after = PlantState(rigid=normalised(flown), psi_rad=motion.psi_rad, turns=turns)
+        # velocities are those through the air; a steady wind carries air and aircraft along
+        carried = self.sample_s * c.wind_north_m_s, self.sample_s * c.wind_east_m_s
+        moved_on = np.stack([*flown[:10], flown[10] + carried[0], flown[11] + carried[1], flown[12]])
+        after = PlantState(rigid=normalised(moved_on), psi_rad=motion.psi_rad, turns=turns)
         return after, replace(motion, psi_rad=motion.psi_rad + 2.0 * np.pi * turns)

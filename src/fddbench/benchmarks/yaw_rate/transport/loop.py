@@ -148,7 +148,7 @@ class TransportLoop:
         s |= {name: breaking.broken(name, getattr(readings, name)) for name in ("r_deg_s", "alpha_deg", "n_z_g")}
         kept, voted = self._voted(x.voters, Voted(r=s["r_deg_s"], alpha=s["alpha_deg"], n_z=s["n_z_g"]))
         seen = measured(c.plant, motion, readings, s, voted, x.thrust_ratio)
-        law, orders = self.law.step(x.law, c.plant.law, Nothing(), sensed(seen, motion), sample)
+        law, orders = self.law.step(x.law, c.plant.law, Nothing(), sensed(seen, motion, c.plant), sample)
         after = LoopState(
             plant=plant, law=law, wind=wind, voters=kept, faults=breaking.after(), **self._actuated(x, orders, motion.v_cas_kt)
         )  # fmt: skip

@@ -7,6 +7,10 @@ __all__ = ["PARAMETERS"]
 
 PARAMETERS: tuple[Parameter, ...] = (
     *LATERAL,
+    *(
+        Parameter(name=name, about=f"steady wind {where} of the trimmed flight", default=0.0, low=-150.0, high=150.0)
+        for name, where in (("tail_wind_kt", "from behind"), ("cross_wind_kt", "from the left"))
+    ),
     Parameter(
         name="gust_gradient_m",
         about="distance from the beginning of the one-minus-cosine gust to its peak",

@@ -30,7 +30,9 @@ class PlantState:
 
 @record
 class PlantConstants:
-    """Body, trimmed state and true airspeed, what is measured of the flight, and what the law knows of it.
+    """Body, trimmed state, true airspeed, steady wind and the track that it makes of the first heading, north.
+
+    What is measured of the flight, and what the law knows of it.
 
     `one_altitude` and `one_v_cas` are ``1 + error`` of the measured altitude and airspeed.
     """
@@ -38,6 +40,9 @@ class PlantConstants:
     body: Body
     begun: Rows
     v_tas_m_s: Row
+    wind_north_m_s: Row
+    wind_east_m_s: Row
+    track_rad: Row
     mass_measured_kg: Row
     x_cg_measured_ratio: Row
     one_altitude: Row

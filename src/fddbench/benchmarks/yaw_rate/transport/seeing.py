@@ -105,8 +105,8 @@ def measured(
     )
 
 
-def sensed(bus: SimpleNamespace, motion: Motion) -> Sensed:
-    """What the law knows: voted sensors, the errors of what is known in its schedule, and true air data."""
+def sensed(bus: SimpleNamespace, motion: Motion, c: PlantConstants) -> Sensed:
+    """What the law knows: voted sensors, errors of what is known in its schedule, true air data, the change of the track."""
     return Sensed(
         phi_rad=RAD_PER_DEG * bus.phi_deg,
         theta_rad=RAD_PER_DEG * bus.theta_deg,
@@ -118,7 +118,7 @@ def sensed(bus: SimpleNamespace, motion: Motion) -> Sensed:
         n_z_g=bus.n_z_voted_g,
         scheduled_pa=dynamic_pressure_pa(bus.v_cas_kt, bus.altitude_ft),
         mass_kg=bus.mass_kg,
-        track_rad=motion.track_rad,
+        track_rad=motion.track_rad - c.track_rad,
         altitude_m=motion.altitude_m,
         climb_m_s=motion.climb_m_s,
         v_tas_m_s=motion.v_tas_m_s,

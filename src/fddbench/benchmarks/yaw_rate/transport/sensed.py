@@ -10,7 +10,7 @@ class Sensed:
     """Signals of a sample, (n_cases,) each: angles [rad], rates [rad/s], load factor [g].
 
     Sideslip, incidence, rates, angles and load factor come from sensors, three of them voted; the pressure of the gain schedule
-    and the mass carry the errors of what is known of the flight; altitude, climb, track and speeds are true.
+    and the mass carry the errors of what is known of the flight; altitude, climb, change of track and speeds are true.
     """
 
     phi_rad: Row
