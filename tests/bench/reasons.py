@@ -102,6 +102,7 @@ def _flown(folder: Path) -> Iterator[tuple[str, pd.DataFrame]]:
     yield "air", _rows(folder, "air", air)
     drawn = yaml.safe_load((campaigns / "fes_maturation.yaml").read_text(encoding="utf-8"))
     drawn["scenarios"] = [of for of in drawn["scenarios"] if of["name"] in (*ONE_IN_TURN, *TWO_IN_YAW)]
+    del drawn["report"]  # it names scenarios that are not flown here
     drawn["detectors"] = [PUBLISHED, NO_EQ38, EQ19]
     all_of = drawn["dispersions"]["monte_carlo"] | {"runs": 200}
     box = {name: {"uniform": ends} for name, ends in BOX.items()}
