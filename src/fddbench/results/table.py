@@ -1,6 +1,7 @@
 """Reads the tables of a folder of results, by its manifest."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,13 +17,30 @@ from fddbench.results.schema import CASE, EVENTS, rows_schema
 from fddbench.results.shards import open_table, read_columns
 from fddbench.results.whole import holdings
 
-__all__ = ["load", "load_events", "named", "read_events", "read_rows"]
-
-Opened = tuple[Path, pq.ParquetFile]
+__all__ = ["load", "load_events", "named", "read_events", "read_in_parts", "read_rows"]
 
 _AT_ONCE = 3  # columns
+_MANY = 50_000  # rows: about 10 MB of what a summary needs
 _ADDRESS = ("scenario", "point", "level", "run")
 """Columns that name a flight; ``case``, made of them when rows are read, is their text: jam_a/3/0/17."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Opened:
+    """Table of a shard, ready to be read, and which of its rows are wanted; None: all."""
+
+    path: Path
+    file: pq.ParquetFile
+    wanted: pa.ChunkedArray | None = None
+
+    def read(self, names: Sequence[str]) -> pa.Table:
+        """Some columns of its wanted rows."""
+        table = read_columns(self.path, self.file, names).replace_schema_metadata(None)
+        return table if self.wanted is None else table.filter(self.wanted)
+
+    def of(self, detector: str) -> "_Opened":
+        """The rows of one detector only."""
+        return replace(self, wanted=pc.equal(self.read(["detector"])["detector"], detector))
 
 
 def load(folder: str | Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
@@ -71,10 +89,25 @@ def read_rows(folder: Path, columns: Sequence[str] | None = None) -> pd.DataFram
     ResultsError
         As `load`.
     """
-    opened = _opened(folder, "rows", rows_schema(()))
-    if not opened:
-        raise ResultsError(f"{folder} holds no rows yet; run the campaign first")
-    return _sorted(opened, folder, opened[0][1].schema_arrow, columns)
+    opened = _rows(folder)
+    return _sorted(opened, folder, opened[0].file.schema_arrow, columns)
+
+
+def read_in_parts(folder: Path, columns: Sequence[str]) -> Iterator[pd.DataFrame]:
+    """Rows as of `read_rows`: all at once, or where they are many those of one detector after the other.
+
+    Raises
+    ------
+    ResultsError
+        As `load`.
+    """
+    opened = _rows(folder)
+    detectors = list(provenance_of(folder)["designs_sha256"])
+    if sum(each.file.metadata.num_rows for each in opened) <= _MANY:
+        yield _sorted(opened, folder, opened[0].file.schema_arrow, columns)
+        return
+    for detector in detectors:
+        yield _sorted([each.of(detector) for each in opened], folder, opened[0].file.schema_arrow, columns)
 
 
 def read_events(folder: Path) -> pd.DataFrame:
@@ -103,7 +136,21 @@ def _warn(folder: Path) -> None:
         )
 
 
-def _opened(folder: Path, which: str, schema: pa.Schema) -> list[Opened]:
+def _rows(folder: Path) -> list[_Opened]:
+    """Rows of all shards, ready to be read.
+
+    Raises
+    ------
+    ResultsError
+        There are none yet.
+    """
+    opened = _opened(folder, "rows", rows_schema(()))
+    if not opened:
+        raise ResultsError(f"{folder} holds no rows yet; run the campaign first")
+    return opened
+
+
+def _opened(folder: Path, which: str, schema: pa.Schema) -> list[_Opened]:
     """Tables of all shards that have one, ready to be read."""
     listed = provenance_of(folder)["fingerprints"]
     found = []
@@ -117,15 +164,16 @@ def _opened(folder: Path, which: str, schema: pa.Schema) -> list[Opened]:
         name, sha256 = files[which]
         if name is not None and sha256 is not None:
             path = folder / name
-            found.append((path, open_table(path, sha256, schema=schema, fingerprint=shard.fingerprint)))
+            file = open_table(path, sha256, schema=schema, fingerprint=shard.fingerprint)
+            found.append(_Opened(path=path, file=file))
     return found
 
 
 def _sorted(
-    opened: Sequence[Opened], folder: Path, schema: pa.Schema, columns: Sequence[str] | None = None
+    opened: Sequence[_Opened], folder: Path, schema: pa.Schema, columns: Sequence[str] | None = None
 ) -> pd.DataFrame:
     """Sorted by scenario, point, level, run, detector and event; read a few columns at a time, for each is held twice."""
-    if any(set(each.schema_arrow.names) != set(schema.names) for _, each in opened):
+    if any(set(each.file.schema_arrow.names) != set(schema.names) for each in opened):
         raise ResultsError(f"the shards of {folder} have different columns; fly the campaign anew with --fresh")
     names = schema.names if columns is None else sorted({*columns, *_ADDRESS} - {CASE.name})
     keys = _read(opened, folder, schema, [name for name in (*_ADDRESS, "detector", "event") if name in schema.names])
@@ -149,10 +197,10 @@ def _sorted(
     return frame
 
 
-def _read(opened: Sequence[Opened], folder: Path, schema: pa.Schema, names: Sequence[str]) -> pa.Table:
+def _read(opened: Sequence[_Opened], folder: Path, schema: pa.Schema, names: Sequence[str]) -> pa.Table:
     """Some columns of all shards, one after the other."""
     empty = pa.schema([schema.field(name) for name in names if name in schema.names]).empty_table()
-    tables = [read_columns(path, each, names).replace_schema_metadata(None) for path, each in opened]
+    tables = [each.read(names) for each in opened]
     try:
         return pa.concat_tables(tables or [empty])
     except pa.ArrowException as error:
