@@ -1,6 +1,7 @@
 """Tables of a folder of results."""
 
 from collections.abc import Collection, Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -55,14 +56,15 @@ def overview(folder: Path) -> tuple[pd.DataFrame, pd.DataFrame]:
         As `load`.
     """
     own = in_sample(folder)
-    parts = [_summarized(rows, own) for rows in table.read_in_parts(folder, NEEDS)]
+    # map lets go of one part before it asks for the next
+    parts = list(map(partial(_summarized, own), table.read_in_parts(folder, NEEDS)))
     lines, of_alarms = (pd.concat(each, ignore_index=True) for each in zip(*parts, strict=True))
     # scenarios in the order of the rows, in each the detectors likewise
     order = np.argsort(pd.factorize(lines["scenario"])[0], kind="stable")
     return lines.iloc[order].reset_index(drop=True), of_alarms
 
 
-def _summarized(rows: pd.DataFrame, own: Collection[str]) -> tuple[pd.DataFrame, pd.DataFrame]:
+def _summarized(own: Collection[str], rows: pd.DataFrame) -> tuple[pd.DataFrame, pd.DataFrame]:
     return summarize(rows, in_sample=own), summarize_alarms(rows, in_sample=own)
 
 
