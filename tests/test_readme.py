@@ -48,6 +48,21 @@ def test_the_table_of_scores_is_the_kept_one():
         assert (int(hits), int(flights)) == (line["right"], line["flown"])
 
 
+def test_the_table_of_the_boeing_747_is_the_kept_one():
+    kept = yaml.safe_load((gallery.folder("reports") / "b747_monte_carlo" / "scores.yaml").read_text(encoding="utf-8"))
+    right = {(line["scenario"], line["detector"]): line.get("right") for line in kept["scores"]}
+    alarms = {line["detector"]: line["alarms"] for line in kept["false_alarms"]}
+    maps = {line["detector"]: line["smallest"] for line in kept["detectable"] if line["scenario"] == "elevator_loss"}
+    rows = re.findall(r"^\| `(\w+)`, .* \| (\d+) \| ([\d.]+)° \| (\d+) \| (\d+) \| (\d+) \|$", TEXT, flags=re.MULTILINE)
+    assert len(rows) == 5
+    for name, elevator, smallest, thrust, both, false in rows:
+        detector = f"{name}_envelope"
+        counts = [right[scenario, detector] for scenario in ("elevator_loss", "thrust_loss", "both_losses")]
+        assert counts == [int(elevator), int(thrust), int(both)]
+        assert alarms[detector] == int(false)
+        assert f"{maps[detector]:.2f}" == smallest
+
+
 @pytest.mark.skipif(shutil.which("make") is None, reason="make is not here")
 def test_the_two_commands_exist():
     makefile = (README.parent / "Makefile").read_text(encoding="utf-8")

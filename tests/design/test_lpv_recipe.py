@@ -1,5 +1,7 @@
 """Recipes of lpv_filter and kalman_monitor: the shipped designs are what they give, and so is one for a model of one's own."""
 
+import pickle
+
 import numpy as np
 import pytest
 import yaml
@@ -8,6 +10,7 @@ from scipy.integrate import solve_ivp
 from fddbench import gallery
 from fddbench.design.recipe import cook
 from fddbench.design.recipes.linearisation import linearised
+from fddbench.design.recipes.recipe import RecipeError
 from fddbench.designs.design import read_design
 from fddbench.errors import CampaignError, DesignError
 from fddbench.flight.b747.aerodynamics import air
@@ -132,6 +135,11 @@ def test_a_scheduling_of_ones_own_beside_the_design(tmp_path):
         ("  decay", "  blind_to: {gust: {direction: [[1.0], [0.5]]}}\n  decay", DesignError, "'pump' cannot be isolated from"),
         ("model: {A", "at: {pump_a: 1.0}\n  model: {A", DesignError, "linearises a model that has scheduling parameters"),
         ("valve: {direction: [[0.0], [1.0]], unit", "valve: {unit", DesignError, "'valve' has an input or a direction"),
+        ("signal: pump_a, scale: 2.0", "signal: pump_a, scale: 0.0", CampaignError, r"own.yaml:7:36: must not be 0"),
+        ("unit_per_fault: 3.0", "unit_per_fault: 0.0", CampaignError, r"own.yaml:8:77: must not be 0"),
+        ("A: [[-1.0, 1.0], [-2.0, -1.0]]", "A: foo", CampaignError, r"own.yaml:5:14: expected a list, got the text 'foo'$"),
+        ("[-2.0, -1.0]", "[-2.0]", DesignError, r"own.yaml:5:14: recipe.model.A is no matrix of real numbers"),
+        ("[[0.0], [1.0]]", "[[0.0], [0.0]]", DesignError, r"own.yaml:8:33: fault 'valve' has no direction"),
     ],
 )  # fmt: skip
 def test_recipes_that_give_nothing_say_why(tmp_path, old, new, kind, message):
@@ -139,11 +147,31 @@ def test_recipes_that_give_nothing_say_why(tmp_path, old, new, kind, message):
         cooked_from(tmp_path, OWN.replace(old, new))
 
 
+def test_all_that_does_not_go_together_is_said_at_once(tmp_path):
+    text = OWN.replace("faults: {pump: pump_a", "faults: {pump: pump_b").replace("smooth_s: {valve", "smooth_s: {vale")
+    with pytest.raises(DesignError) as caught:
+        cooked_from(tmp_path, text)
+    first, second = str(caught.value).splitlines()
+    assert "own.yaml:10:13: recipe.smooth_s: no filter for 'vale'" in first
+    assert "own.yaml:8:18: recipe: fault 'pump' enters as input 'pump_b'" in second
+    with pytest.raises(DesignError) as again:
+        raise pickle.loads(pickle.dumps(RecipeError(("a", "b"))))
+    assert again.value.messages == ("a", "b")
+
+
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
         ("model: approx", "model: folded", "scheduling 'b747' has no model 'folded'. Did you mean 'fold'"),
-        ("altitude_m: 7000.0, ", "", "recipe.at: altitude_m missing"),
+        ("altitude_m: 7000.0, ", "", r"own.yaml:\d+:7: recipe.at: altitude_m missing"),
+        ("altitude_m: 7000.0, ", "altitude_m: 7000.0, beta_deg: 0.0, ", "recipe.at: nothing looks at beta_deg"),
+        (
+            "v_tas_m_s: 241.0",
+            "v_tas_m_s: 2410.0",
+            "recipe.at: the condition lies outside the box of the model: rho 1 = ",
+        ),
+        ("v_tas_m_s: 241.0", "v_tas_m_s: 0.0", "recipe.at: the condition lies outside the box of the model"),
+        ("scheduling: b747", "scheduling: b748", r"own.yaml:\d+:15: recipe.scheduling: no scheduling is called 'b748'"),
     ],
 )
 def test_the_aircraft_s_recipes_that_give_nothing_say_why(tmp_path, old, new, message):

@@ -9,6 +9,7 @@ from fddbench.interfaces import NEVER
 from fddbench.metrics.found import BEFORE
 from fddbench.metrics.rows import event_columns, score_columns, statuses
 from fddbench.metrics.score import FaultScore, FaultTimes
+from fddbench.metrics.scoring import SITES as OF_SITES
 from fddbench.metrics.scoring import Scoring
 from fddbench.results.schema import STATUSES
 
@@ -127,3 +128,17 @@ def test_a_departure_exactly_at_the_limit():
     given = scored(faults=((300.0, NEVER, (0.0, 1.0, 0.0)),))
     assert one_event(*given, event=0, limit_s=0.36, departed=336.0)["outcome"] == "missed"
     assert one_event(*given, event=0, limit_s=0.36, departed=300.0)["outcome"] == "undecided"
+
+
+@pytest.mark.parametrize(("units", "bias"), [(("deg", "deg", "N"), 2.0), (("deg", "N", "N"), None)])
+def test_errors_of_estimates_in_two_units_have_no_common_mean(units, bias):
+    """The faults of r1 and r2 were found, each with two samples of an error of 2 in its own unit."""
+    scoring = Scoring(SITES, 2, 0.01, estimates=OF_SITES, units=units)
+    times = [times_of(200.0, NEVER, own) for own in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))]
+    faulty_from = np.array([[200.0], [200.0], [NEVER]])
+    constants = scoring.rows(last=1000.0, faults=times, faulty_from=faulty_from, n_cases=1)
+    each = (FaultScore(found=210.0, sums=(2.0, 4.0, 8.0)),) * 2
+    score = replace(scoring.start(scoring.constants.unpack(constants)), faults=each)
+    packed = scoring.states.pack(scoring.states.spread(score, 1), 1)
+    assert columns(scoring, packed, constants)["estimate_bias"] == bias
+    assert one_event(scoring, packed, constants, event=1, limit_s=1.0)["estimate_bias"] == 2.0

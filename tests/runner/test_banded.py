@@ -5,6 +5,7 @@ import pytest
 from tests.runner.conftest import write
 
 from fddbench.api.flights import signals
+from fddbench.api.report_data import report_data
 from fddbench.campaign.load import read_campaign
 from fddbench.results.table import load
 from fddbench.runner import banded
@@ -58,3 +59,13 @@ def test_quantiles_are_of_the_flights_that_still_fly():
     seven = banded.quantiles(np.array([[1.0, np.nan, 3.0], [np.nan, np.nan, np.nan]]))
     assert seven[[0, -1], 0].tolist() == [1.0, 3.0]
     assert np.isnan(seven[:, 1]).all()
+
+
+def test_a_campaign_says_which_scenarios_are_pictured(tmp_path):
+    campaign = read_campaign(
+        write(tmp_path), ["report={bands: true, scenarios: [noise]}", "dispersions.monte_carlo.runs=1"]
+    )
+    run_campaign(campaign, tmp_path / "results", jobs=1)
+    data = report_data(tmp_path / "results")
+    assert [bands.scenario for bands in data.bands] == [of.scenario for of in data.recordings] == ["noise"]
+    assert data.rows["scenario"].nunique() == 5

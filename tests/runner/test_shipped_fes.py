@@ -58,7 +58,7 @@ def test_eq_38_keeps_a_turn_from_being_a_fault_and_hides_faults_while_rolling(tm
     two = "{kind: oscillatory, sites: [r1, r2], onset_s: 8.0, amplitude_percent: 3.75, frequency_rad_s: 0.5385"
     two += ", phase_rad: -1.026}"
     rows = flown(
-        tmp_path, "fes_maturation", "dispersions.monte_carlo.runs=12",
+        tmp_path, "fes_maturation", "dispersions.monte_carlo.runs=12", "report={}",
         "detectors=[sliding_mode_published, sliding_mode_without_eq38]",
         f"scenarios=[{{name: turn, manoeuvre: turn_coordination_2, duration_s: 20.0, faults: [{one}]}}, "
         f"{{name: rolling, manoeuvre: yaw_angle_mode, duration_s: 13.36, faults: [{two}]}}]",

@@ -13,6 +13,7 @@ from fddbench.campaign.meaning import Campaign
 from fddbench.reporting.bands import names_in
 from fddbench.reporting.page import ReportData
 from fddbench.reporting.published import iterations_for, published_for
+from fddbench.reporting.reasons import reason_table
 from fddbench.results.folder import provenance_of
 from fddbench.results.table import read_events, read_rows
 from fddbench.results.whole import holdings
@@ -45,7 +46,8 @@ def report_data(folder: Path) -> ReportData:
         name: in_words(detector_load(detector, assembly.loop.bus, timed=False))
         for name, detector in assembly.detectors.items()
     }
-    chosen = sampled_cases(rows, seed=campaign.seed)
+    pictured = _pictured(rows, content)
+    chosen = sampled_cases(pictured, seed=campaign.seed)
     return ReportData(
         campaign=content,
         rows=rows,
@@ -63,9 +65,18 @@ def report_data(folder: Path) -> ReportData:
             }
             for d in campaign.designs
         ],
-        recordings=list(replay_campaign(campaign, chosen, seconds=_seconds(rows), signals=bench.shown)),
-        **_bands(campaign, rows, content),
+        recordings=list(
+            replay_campaign(
+                campaign,
+                chosen,
+                seconds=_seconds(rows),
+                signals=bench.shown,
+                scenarios=list(pictured["scenario"].unique()),
+            )
+        ),
+        **_bands(campaign, pictured, content),
         folder=folder.as_posix(),
+        reasons=reason_table(campaign.name, campaign.sha256),
         published=published_for(content, getattr(bench, "published", "")),
         iterations=iterations_for(getattr(bench, "iterations", "")),
         envelope_axes=getattr(bench, "envelope_axes", ()),
@@ -81,6 +92,12 @@ def _replayed(folder: Path, campaign: Campaign) -> dict[str, str]:
     """Line that says by which other program the pictures were flown."""
     other = other_program(folder, campaign)
     return {"signals flown again by another program": other} if other else {}
+
+
+def _pictured(rows: pd.DataFrame, content: Mapping[str, Any]) -> pd.DataFrame:
+    """Rows of the scenarios whose signals are shown."""
+    named = (content.get("report") or {}).get("scenarios")
+    return rows[np.asarray(rows["scenario"].isin(named), dtype=bool)] if named else rows
 
 
 def _bands(campaign: Campaign, rows: pd.DataFrame, content: Mapping[str, Any]) -> dict[str, Any]:

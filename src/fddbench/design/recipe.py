@@ -1,18 +1,21 @@
 """From the recipe in a design file to its numbers: what ``fddbench design`` runs."""
 
 import json
+import re
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from pydantic import ValidationError
 
 from fddbench import kinds
-from fddbench.campaign.reading.document import Document, refuse
+from fddbench.campaign.reading.document import Address, Document, refuse
 from fddbench.campaign.reading.yaml_nodes import read_yaml
 from fddbench.campaign.rules.messages import mistakes_of
-from fddbench.design.recipes.recipe import Recipe
+from fddbench.design.recipes.recipe import Made, Recipe, RecipeError
 from fddbench.designs.design_file import DesignFile, design_text
 from fddbench.errors import DesignError
 
@@ -44,11 +47,36 @@ def cook(path: Path) -> Cooked:
             "detectors/lpv_filter_approx.yaml are examples."
         )
     recipe = _recipe(path, document)
-    made = recipe.in_folder(path.parent).make()
+    made = _made(recipe.in_folder(path.parent), document)
     data = {key: document.data[key] for key in ("kind", "about", "source") if key in document.data}
     written = {**document.data["recipe"], "found": dict(made.found)}
     data |= {"tuned_on": None, "recipe": written, "gains": dict(made.gains)}
     return Cooked(design_text(data), made.gains, made.found, recipe.found)
+
+
+def _made(recipe: Recipe, document: Document) -> Made:
+    """Gains of the recipe; what it refuses is said with its place in the file."""
+    try:
+        with np.errstate(all="ignore"), warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # what comes of numbers that are too large is refused below
+            return recipe.make()
+    except DesignError as error:
+        texts = error.messages if isinstance(error, RecipeError) else (error.message,)
+        raise DesignError("\n".join(f"{document.where(_address(document, text))}: {text}" for text in texts)) from error
+    except (ArithmeticError, ValueError, np.linalg.LinAlgError) as error:
+        raise DesignError(
+            f"{document.where(('recipe',))}: the numbers of this recipe give no design ({error}): they are too large, too "
+            "small or too far apart. Choose units in which they are about one"
+        ) from error
+
+
+def _address(document: Document, text: str) -> Address:
+    """What a refusal is about: the key ``recipe.…`` that it starts with, or the fault that it names; else the recipe."""
+    if key := re.match(r"recipe(?:\.\w+)+", text):
+        return tuple(key[0].split("."))
+    fault = re.search(r"fault '([^']+)'", text)
+    blocks = [key for key in ("faults", "blind_to") if fault and fault[1] in document.mapping("recipe", key)]
+    return ("recipe", blocks[0], fault[1]) if fault and blocks else ("recipe",)
 
 
 def _recipe(path: Path, document: Document) -> Recipe:

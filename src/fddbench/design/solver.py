@@ -6,7 +6,7 @@ from typing import Any
 
 from fddbench.errors import DesignError, did_you_mean
 
-__all__ = ["SOLVERS", "attempt", "modelling", "solve"]
+__all__ = ["SOLVERS", "attempt", "modelling", "require_known", "solve"]
 
 SOLVERS: dict[str, dict[str, Any]] = {
     "CLARABEL": {},
@@ -21,13 +21,18 @@ def modelling() -> Any:
     return import_module("cvxpy")
 
 
+def require_known(solver: str) -> None:
+    """Refuse the name of a solver that is none of ours."""
+    if solver not in SOLVERS:
+        raise DesignError(
+            f"no solver is called {solver!r}. {did_you_mean(str(solver), SOLVERS)}\nKnown: {', '.join(SOLVERS)}."
+        )
+
+
 def attempt(problem: Any, solver: str, what: str) -> str:
     """Solve and return the status: "optimal", "optimal_inaccurate", "infeasible" ...; "failed" for a breakdown."""
     cvxpy = modelling()
-    if solver not in SOLVERS:
-        raise DesignError(
-            f"no solver is called {solver!r}. {did_you_mean(solver, SOLVERS)}\nKnown: {', '.join(SOLVERS)}."
-        )
+    require_known(solver)
     if solver not in cvxpy.installed_solvers():
         raise DesignError(
             f"{what}: solver {solver} is not installed (MOSEK: `pip install mosek` and a licence); use CLARABEL."

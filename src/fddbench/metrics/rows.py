@@ -13,7 +13,7 @@ from fddbench.metrics.estimate import bias_and_rms
 from fddbench.metrics.found import BEFORE, in_flight
 from fddbench.metrics.outcome import Ends, Judged, judged, seconds
 from fddbench.metrics.score import ScoreConstants, ScoreState
-from fddbench.metrics.scoring import Scoring
+from fddbench.metrics.scoring import SITES, Scoring
 
 __all__ = ["event_columns", "score_columns", "statuses"]
 
@@ -110,7 +110,7 @@ def _outcome(
     return (
         columns
         | _detection(met, start=start, limit_s=within, sample_s=sample_s, valid=ok & faulty)
-        | _estimate(x, c, ends, ok)
+        | _estimate(x, c, ends, ok & _comparable(scoring, c.faulty_from < NEVER))
     )
 
 
@@ -160,6 +160,15 @@ def _estimate(x: ScoreState, c: ScoreConstants, ends: Ends, valid: Booleans) -> 
     return {"estimate_bias": _nullable(bias, valid), "estimate_rms": _nullable(rms, valid)}
 
 
+def _comparable(scoring: Scoring, faulty: Booleans) -> Booleans:
+    """Where the errors of the estimates of these sites, (n_sites, n_cases), have one unit."""
+    if scoring.estimates != SITES:
+        return np.ones(faulty.shape[1], dtype=bool)
+    of_unit = [faulty[[unit == one for one in scoring.units]].any(axis=0) for unit in dict.fromkeys(scoring.units)]
+    one_unit: Booleans = np.sum(of_unit, axis=0) <= 1
+    return one_unit
+
+
 def event_columns(
     scoring: Scoring,
     score: Floats,
@@ -178,9 +187,7 @@ def event_columns(
     x, c = replace(x, faults=(x.faults[event],)), replace(c, faults=(c.faults[event],))
     ends, within, start = Ends(last=c.last, departed=departed), np.round(limit_s, 9), c.faults[0].first
     found, first, last = _faults(x, c)
-    met = judged(
-        found, first=first, last=last, start=start, limit_s=within, ends=ends, sample_s=scoring.sample_s
-    )  # fmt: skip
+    met = judged(found, first=first, last=last, start=start, limit_s=within, ends=ends, sample_s=scoring.sample_s)
     columns: Columns = {
         "outcome": pa.array(met.outcome.tolist(), pa.string(), mask=~valid),
         "detection_time_limit_s": pa.array(within),
@@ -188,7 +195,7 @@ def event_columns(
     return (
         columns
         | _detection(met, start=start, limit_s=within, sample_s=scoring.sample_s, valid=valid)
-        | _estimate(x, c, ends, valid)
+        | _estimate(x, c, ends, valid & _comparable(scoring, c.faults[0].own > 0.0))
     )
 
 

@@ -47,6 +47,8 @@ class Scoring:
         False for a detector that only detects: it is scored by its alarm.
     estimates : str or None
         What `Verdict.estimate` is of: `SITES`, or the name of a voted signal; None: the detector estimates nothing.
+    units : sequence of str
+        Unit of each site; none: all have the same. Errors of estimates in different units have no common mean.
     """
 
     draws: Draws[Any] = NO_DRAWS
@@ -60,7 +62,9 @@ class Scoring:
         watches: Sequence[str] | None = None,
         isolates: bool = True,
         estimates: str | None = None,
+        units: Sequence[str] = (),
     ) -> None:
+        self.units = tuple(units) or ("",) * len(sites)
         self.sites, self.n_faults, self.sample_s = tuple(sites), n_faults, sample_s
         self.isolates, self.estimates = isolates, estimates
         self.watches = self.sites if watches is None else tuple(watches)
@@ -79,7 +83,7 @@ class Scoring:
 
     def of(self, *, watches: Sequence[str], isolates: bool, estimates: str | None) -> "Scoring":
         """Score of another detector on the same flights: the same constants."""
-        more: dict[str, Any] = {"watches": watches, "isolates": isolates, "estimates": estimates}
+        more: dict[str, Any] = {"watches": watches, "isolates": isolates, "estimates": estimates, "units": self.units}
         return Scoring(self.sites, self.n_faults, self.sample_s, **more)
 
     def rows(self, *, last: Row, faults: Sequence[FaultTimes], faulty_from: Rows, n_cases: int) -> Floats:

@@ -93,6 +93,17 @@ def _detector_panels(bands: Bands) -> list[tuple[int, str, list[str]]]:
     return found
 
 
+def _label(name: str) -> str:
+    """Label of an axis; the number of a row stands before the unit.
+
+    >>> _label("r_deg_s_2"), _label("p_true_deg_s")
+    ('r 2 [deg/s]', 'p true [deg/s]')
+    """
+    number = _NUMBER.search(name)
+    words, unit, rest = label(f"p_{_NUMBER.sub('', name)}").partition(" [")
+    return words + (number.group().replace("_", " ") if number else "") + unit + rest
+
+
 def _fill(axes: "Axes", time_s: Floats, quantiles: Floats, tone: str) -> None:
     """Least to largest pale, 5 to 95 % and the middle half darker, the median as a line."""
     for low, high, alpha in ((0, 6, 0.13), (1, 5, 0.2), (2, 4, 0.3)):
@@ -111,7 +122,7 @@ def _draw_response(axes: "Axes", bands: Bands, panel: Response) -> None:
             look = {"color": "#d55e00", "lw": 1.1, "ls": (0, (4, 2))}
         axes.plot(bands.time_s, bands.one[name], **look)
     axes.set_ylim(*_within(low, high, [bands.one[name] for name in beside]))
-    axes.set(ylabel=label(f"p_{panel.signal}"), xlabel="time [s]")
+    axes.set(ylabel=_label(panel.signal), xlabel="time [s]")
     _frame(axes, bands)
 
 
@@ -132,7 +143,7 @@ def _draw_shown(axes: "Axes", bands: Bands, detector: str, names: Sequence[str],
             axes.plot(bands.time_s, sign * signals[name][3], color=INK, lw=1.0, ls=(0, (4, 2)))
     if names[0] == "residual":
         axes.axhline(1.0, color=INK, ls=(0, (4, 2)), lw=1.0)
-    axes.set(ylabel=label(f"p_{names[0]}"), xlabel="time [s]")
+    axes.set(ylabel=_label(names[0]), xlabel="time [s]")
     axes.set_title(detector, color=colour(number))
     _frame(axes, bands)
 

@@ -10,7 +10,7 @@ import pandas as pd
 from fddbench.interfaces import Floats
 from fddbench.metrics.shares import decided, share
 from fddbench.reporting.figures import label
-from fddbench.reporting.formats import DASH, count, interval, percent, present, rate, seconds
+from fddbench.reporting.formats import DASH, count, interval, percent, present, rate, seconds, short
 from fddbench.reporting.tables import Cell
 
 __all__ = ["WORST", "failure_tables", "worst_lines"]
@@ -70,7 +70,7 @@ def _places(values: Floats) -> tuple[npt.NDArray[np.int64], list[str]]:
     if len(few) <= _FEW:
         return np.searchsorted(few, values), [f"{value:.6g}" for value in few]
     edges = np.linspace(few[0], few[-1], _BINS + 1)
-    names = [f"{_number(edges[i])} … {_number(edges[i + 1])}" for i in range(_BINS)]
+    names = [f"{short(edges[i])} … {short(edges[i + 1])}" for i in range(_BINS)]
     return np.clip(np.searchsorted(edges, values, side="right") - 1, 0, _BINS - 1), names
 
 
@@ -128,13 +128,9 @@ def _worst(line: "pd.Series[Any]", names: Sequence[str], folder: str) -> list[Ce
         Cell(outcome.replace("_", " "), alarm=outcome in _WRONG),
         Cell(seconds(time_s)),
         Cell(rate(margin)),
-        Cell(", ".join(f"{label(name)} {_number(float(line[name]))}" for name in names)),
+        Cell(", ".join(f"{label(name)} {short(float(line[name]))}" for name in names)),
         Cell(f'fddbench.signals("{folder}", "{line["scenario"]}", ["{line["case"]}"])'),
     ]
-
-
-def _number(value: float) -> str:
-    return f"{value:.0f}" if abs(value) >= 1000.0 else f"{value:.3g}"
 
 
 def _margin(flown: pd.DataFrame) -> Floats:

@@ -149,11 +149,12 @@ def envelope(rows: pd.DataFrame, axes: Sequence[tuple[str, str]] = ()) -> str | 
 
 
 def _fates(rows: pd.DataFrame, cases: "pd.Series[Any]") -> Any:
-    groups = rows.groupby("case", sort=False)["status"]
-    fate = groups.agg(
-        lambda of: "infeasible" if (of == "infeasible").any() else "flown" if (of == "ok").all() else "failed"
-    )
-    return np.asarray(fate.loc[cases], dtype=str)
+    """Whether each case is infeasible, flown for all detectors, or failed for one."""
+    groups = rows["case"]
+    infeasible = (rows["status"] == "infeasible").groupby(groups, sort=False).any()
+    flown = (rows["status"] == "ok").groupby(groups, sort=False).all()
+    fate = np.where(infeasible, "infeasible", np.where(flown, "flown", "failed"))
+    return pd.Series(fate, index=infeasible.index).loc[cases].to_numpy(dtype=str)
 
 
 def _scatter(axes: "Axes", x: Floats, y: Floats, fates: Any) -> None:

@@ -4,7 +4,7 @@ from typing import Any
 
 import pandas as pd
 
-__all__ = ["DASH", "count", "interval", "percent", "present", "rate", "seconds", "signed"]
+__all__ = ["DASH", "count", "interval", "percent", "present", "rate", "seconds", "short", "signed"]
 
 DASH = "–"
 
@@ -49,6 +49,15 @@ def seconds(value: Any) -> str:
 def interval(low: Any, high: Any, form: Any = percent) -> str:
     """Text of both ends, ``96.4 … 100``; empty without them."""
     return f"{form(low)} … {form(high)}" if present(low) and present(high) else ""
+
+
+def short(value: float) -> str:
+    """Value of a parameter as a reader needs it: whole from 1000 on, else three digits.
+
+    >>> short(129062.98), short(0.24481)
+    ('129063', '0.245')
+    """
+    return f"{value:.0f}" if abs(value) >= 1000.0 else f"{value:.3g}"
 
 
 def signed(value: float) -> str:

@@ -9,7 +9,7 @@ import pandas as pd
 
 from fddbench.interfaces import Floats
 from fddbench.reporting.figures import label
-from fddbench.reporting.formats import count
+from fddbench.reporting.formats import count, short
 from fddbench.reporting.pictures import ORDINARY, colour, to_png
 from fddbench.reporting.tables import Cell
 
@@ -70,7 +70,7 @@ def infeasible_lines(rows: pd.DataFrame, axes: Sequence[tuple[str, str]]) -> lis
 
 def _range(name: str, values: Floats) -> str:
     low, high = float(values.min()), float(values.max())
-    return f"{label(name)} {low:.6g}" + (f" to {high:.6g}" if high > low else "")
+    return f"{label(name)} {short(low)}" + (f" to {short(high)}" if high > low else "")
 
 
 def infeasible_map(rows: pd.DataFrame, axes: Sequence[tuple[str, str]]) -> str | None:

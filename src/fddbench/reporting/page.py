@@ -16,6 +16,7 @@ from fddbench.reporting.bands import band_pictures
 from fddbench.reporting.beside import beside
 from fddbench.reporting.guarantees import guarantee_lines
 from fddbench.reporting.published import Iterations, Published
+from fddbench.reporting.reasons import REASONS
 
 __all__ = ["ReportData", "page_html", "write_page"]
 
@@ -61,6 +62,8 @@ class ReportData:
         Panels of healthy flights, as the plant says, and signals of the others, as the benchmark does.
     folder : str
         The folder of results as a reader would write it.
+    reasons : sequence of lines of cells
+        What was found behind the failures of a shipped campaign.
     """
 
     campaign: Mapping[str, Any]
@@ -81,6 +84,7 @@ class ReportData:
     responses: Sequence[Response] = ()
     shown: Sequence[str] = ()
     folder: str = "results"
+    reasons: Sequence[Sequence[tables.Cell]] = ()
 
 
 def write_page(report: ReportData, output: Path) -> None:
@@ -131,6 +135,8 @@ def _content(report: ReportData) -> dict[str, Any]:
         **_detectability(report.detectable, alarms),
         "bands": band_pictures(report.bands, report.responses, report.shown),
         "failures": failures.failure_tables(rows, report.envelope_axes),
+        "reason_heads": REASONS,
+        "found_behind": report.reasons,
         "worst_heads": failures.WORST,
         "worst": failures.worst_lines(rows, report.envelope_axes, report.folder),
         "infeasible_map": infeasible.infeasible_map(rows, report.envelope_axes),

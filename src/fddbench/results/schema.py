@@ -62,7 +62,11 @@ _SCORES = [
     _column("isolated", pa.bool_(), "declared sites at the end = faulty sites; null: healthy, or only detects"),
     _column("over_declared", pa.bool_(), "more sites declared than have been faulty, at any sample since the onset"),
     _column("changes", pa.int64(), "how often the declaration (or the alarm) changed since the onset; 1 is clean"),
-    _column("estimate_bias", pa.float64(), f"{_BIAS}, in the unit of the site; null: no estimate, or not found"),
+    _column(
+        "estimate_bias",
+        pa.float64(),
+        f"{_BIAS}, in the unit of the site; null: no estimate, not found, or faults in two units",
+    ),
     _column("estimate_rms", pa.float64(), f"{_RMS}; null: no estimate, or not found"),
     _column("margin_healthy", pa.float64(), "largest residual over threshold before the onset [-]"),
     _column("margin_faulty", pa.float64(), "largest residual over threshold from the onset on [-]; null: healthy"),

@@ -69,7 +69,8 @@ def assemble(campaign: Campaign) -> Assembly:
     loop = loop_of(planned)
     require_able(campaign, loop)
     n_faults = max((len(scenario.faults) for scenario in planned.scenarios), default=0)
-    scoring = Scoring(loop.bus.names, n_faults, campaign.sample_s)
+    units = [site.unit_name for site in loop.bus.sites]
+    scoring = Scoring(loop.bus.names, n_faults, campaign.sample_s, units=units)
     assembly = Assembly(plan=planned, loop=loop, detectors={}, scoring=scoring)
     faults = [fault for scenario in campaign.scenarios for fault in scenario.faults]
     if any(map(_foreign, (campaign.bench, campaign.plant, loop, *campaign.chosen.values(), *faults))):

@@ -28,6 +28,7 @@ def inconsistencies(
 ) -> Iterator[Mistake]:
     """Every contradiction in a campaign whose keys and names are right."""
     yield from _reconfigured(document, written)
+    yield from _shown(document, written)
     yield from _repeated(document, [entry.name for entry in written.scenarios])
     yield from _too_many(document, written, faults)
     yield from ranges(document, written, plant)
@@ -52,6 +53,15 @@ def _reconfigured(document: Document, written: CampaignFile) -> Iterator[Mistake
             "after every false alarm. Remove this key here and keep it in the campaign that evaluates"
         )
         yield document.mistake(("reconfigure",), message, key=True)
+
+
+def _shown(document: Document, written: CampaignFile) -> Iterator[Mistake]:
+    """Scenarios that the report shall show and that the campaign does not have."""
+    known = [entry.name for entry in written.scenarios]
+    for number, name in enumerate(written.report.scenarios):
+        if name not in known:
+            message = f"no scenario of this campaign is called {name!r}. {did_you_mean(name, known)}".strip()
+            yield document.mistake(("report", "scenarios", number), message)
 
 
 def _repeated(document: Document, scenarios: list[str]) -> Iterator[Mistake]:

@@ -15,6 +15,10 @@ from fddbench.faults.varied import Number, Varied
 __all__ = ["allowed_keys", "mistakes_of"]
 
 
+_TAGS = ("name", "matrices")
+"""Names that models give the members of their unions."""
+
+
 def allowed_keys(model: type[BaseModel], address: Address) -> tuple[str, ...]:
     """Keys of the block at an address within a model; empty where it is no block."""
     found = _model_in(model)
@@ -52,8 +56,8 @@ def mistakes_of(
     """Every finding of a validation of the block at an address, as a mistake at its place."""
     found = []
     for detail in error.errors(include_url=False):
-        local: Address = tuple(part for part in detail["loc"] if part != "[key]")
         kind = detail["type"]
+        local = _written(document, at, tuple(part for part in detail["loc"] if part != "[key]"), kind)
         if kind == "too_short" and len(detail["input"]) >= detail.get("ctx", {})["min_length"]:
             continue  # pydantic counts the right items only; the wrong ones are told by themselves
         if kind == "extra_forbidden":
@@ -72,6 +76,16 @@ def mistakes_of(
             )
             found.append(document.mistake(finding.address, say(finding)))
     return found
+
+
+def _written(document: Document, at: Address, loc: Address, kind: str) -> Address:
+    """Pydantic's way to a value without the names that it gives the members of a union, which no file writes."""
+    local: Address = ()
+    for n, part in enumerate(loc):
+        named = isinstance(part, int) or part in document.mapping(*at, *local)
+        if named or (kind == "missing" and n == len(loc) - 1) or part not in _TAGS:
+            local = (*local, part)
+    return local
 
 
 def _unknown_key(local: Address, allowed: tuple[str, ...]) -> str:

@@ -150,10 +150,13 @@ class ReportEntry(Strict):
         flight is flown again.
     published : tuple of str
         Printed tables to stand beside the results, instead of that of the benchmark.
+    scenarios : tuple of str
+        Pictures of signals over time of these only; of all where there are none.
     """
 
     bands: bool = False
     published: tuple[Name, ...] = ()
+    scenarios: tuple[Name, ...] = ()
 
 
 class CampaignFile(Strict):

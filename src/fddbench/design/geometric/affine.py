@@ -1,5 +1,6 @@
 """Affine families of matrices M(rho) = M_0 + rho_1 M_1 + ..., and the box of their parameters."""
 
+import reprlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
@@ -11,7 +12,7 @@ from scipy.stats import qmc
 from fddbench.design.geometric.subspaces import Matrix
 from fddbench.errors import DesignError
 
-__all__ = ["Box", "at", "family"]
+__all__ = ["Box", "at", "family", "numbers"]
 
 _MOST_CORNERS = 12
 """Parameters up to which all corners of a box are looked at."""
@@ -31,7 +32,7 @@ def family(name: str, M: ArrayLike, shape: tuple[int | None, int | None], n_para
     n_parameters : int, optional
         None: as many as it has.
     """
-    array = np.asarray(M, dtype=float)
+    array = numbers(name, M)
     if array.ndim == 1:
         array = array[:, np.newaxis]
     if array.ndim == 2:
@@ -46,6 +47,23 @@ def family(name: str, M: ArrayLike, shape: tuple[int | None, int | None], n_para
     if not np.all(np.isfinite(array)):
         raise DesignError(f"{name} has numbers that are not finite")
     return array
+
+
+def numbers(name: str, M: ArrayLike) -> Matrix:
+    """Real numbers in rows of one length.
+
+    Raises
+    ------
+    DesignError
+        They are none: text, complex numbers, rows of several lengths.
+    """
+    try:
+        given = np.asarray(M)
+        if not np.iscomplexobj(given):
+            return given.astype(float)
+    except (TypeError, ValueError):
+        pass
+    raise DesignError(f"{name} is no matrix of real numbers in rows of one length: got {reprlib.repr(M)}")
 
 
 def at(M: Matrix, rho: Matrix) -> Matrix:
@@ -74,8 +92,10 @@ class Box:
             raise DesignError(
                 f"A depends on {n_parameters} parameters and no box says in which range: give [low, high] for each of them"
             )
-        array = np.asarray(ranges if ranges is not None else [], dtype=float).reshape(-1, 2)
-        if len(array) != n_parameters or not np.all(array[:, 0] < array[:, 1]) or not np.all(np.isfinite(array)):
+        array = numbers("the box", ranges if ranges is not None else [])
+        if not array.size:
+            array = array.reshape(0, 2)
+        if array.shape != (n_parameters, 2) or not np.all(array[:, 0] < array[:, 1]) or not np.all(np.isfinite(array)):
             raise DesignError(
                 f"the box is {array.tolist()}; it needs {n_parameters} rows [low, high], one per parameter, with low < high"
             )

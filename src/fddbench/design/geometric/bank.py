@@ -1,18 +1,20 @@
 """A bank of residual generators: one per fault that sees it and is blind to the others, whatever rho does."""
 
+import reprlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from fddbench.design.geometric.affine import Box, family
+from fddbench.design.geometric.affine import Box, family, numbers
 from fddbench.design.geometric.generator import ResidualGenerator, identity_error
 from fddbench.design.geometric.invariance import unobservability_subspace
 from fddbench.design.geometric.one_state import one_state_row
 from fddbench.design.geometric.solvability import require_solvable, solvability, span
 from fddbench.design.geometric.stabilise import stabilise
 from fddbench.design.geometric.subspaces import TOLERANCE, Matrix, complement, kernel, subspace_sum
+from fddbench.design.solver import require_known
 from fddbench.errors import DesignError
 
 __all__ = ["residual_generator"]
@@ -74,9 +76,9 @@ def residual_generator(
     n, n_p = A_.shape[1], len(A_) - 1
     A_, B_ = family("A", A_, (n, n)), family("B", B, (n, None), n_p)
     C_ = _outputs(C, n)
-    L = {name: family(f"the direction of fault {name!r}", M, (n, None), n_p) for name, M in faults.items()}
+    _refuse_options(faults, watch, decay, solver)
+    L = {name: _direction(name, M, n, n_p) for name, M in faults.items()}
     limits = Box.of(box, n_p)
-    _refuse_options(L, watch, decay)
     plant = _Plant(A_, B_, C_, L, limits)
     return {name: _generator(plant, name, decay, one_state, solver) for name in (watch or L)}
 
@@ -130,20 +132,43 @@ def _kept_inside(P: Matrix, A: Matrix, C: Matrix) -> Matrix:
 
 def _outputs(C: ArrayLike, n: int) -> Matrix:
     """C as a matrix of full row rank."""
-    matrix = np.atleast_2d(np.asarray(C, dtype=float))
-    if matrix.ndim != 2 or matrix.shape[1] != n or not np.all(np.isfinite(matrix)):
+    matrix = np.atleast_2d(numbers("C", C))
+    if matrix.ndim != 2 or matrix.shape[1] != n:
         raise DesignError(f"C has shape {np.shape(C)}, needs (any, {n}): it does not depend on the parameters")
+    if not np.all(np.isfinite(matrix)):
+        raise DesignError("C has numbers that are not finite")
     if np.linalg.matrix_rank(matrix) < len(matrix):
         raise DesignError("outputs say the same: C has not full row rank; leave out rows, or average them")
     return matrix
 
 
-def _refuse_options(L: Mapping[str, Matrix], watch: Sequence[str] | None, decay: float) -> None:
-    unknown = [name for name in watch or () if name not in L]
-    if unknown or not L:
-        raise DesignError(f"no fault is called {', '.join(map(repr, unknown)) or '…'}; known: {', '.join(L) or 'none'}")
-    if not 0.0 < decay < np.inf:
-        raise DesignError(f"decay is a rate in 1/s above 0, got {decay}")
-    idle = [name for name, M in L.items() if not np.any(M)]
-    if idle:
-        raise DesignError(f"fault {idle[0]!r} has no direction: all its numbers are zero")
+def _direction(name: str, M: ArrayLike, n: int, n_parameters: int) -> Matrix:
+    """Direction of a fault, whose columns are that many inputs."""
+    L = family(f"the direction of fault {name!r}", M, (n, None), n_parameters)
+    if not np.any(L):
+        raise DesignError(f"fault {name!r} has no direction: all its numbers are zero")
+    lengths = np.linalg.norm(L, axis=(0, 1))
+    rank = int(np.linalg.matrix_rank(np.vstack(list(L / np.where(lengths > 0.0, lengths, 1.0))), tol=TOLERANCE))
+    if rank < L.shape[2]:
+        raise DesignError(
+            f"the direction of fault {name!r} has {L.shape[2]} columns that say only {rank}: one is zero or "
+            "the sum of others. Leave it out"
+        )
+    return L
+
+
+def _refuse_options(faults: object, watch: Sequence[str] | None, decay: object, solver: str) -> None:
+    """Options that mean nothing, whatever the matrices."""
+    if not isinstance(faults, Mapping) or not faults:
+        raise DesignError(
+            f"faults are directions by name, one or more: {{'elevator': L, ...}}; got {reprlib.repr(faults)}"
+        )
+    if watch is not None and (isinstance(watch, str) or not isinstance(watch, Sequence) or not watch):
+        known = ", ".join(map(str, faults))
+        raise DesignError(f"watch is a list of faults out of {known}, or left out for all; got {reprlib.repr(watch)}")
+    unknown = [name for name in watch or () if name not in faults]
+    if unknown:
+        raise DesignError(f"no fault is called {', '.join(map(repr, unknown))}; known: {', '.join(map(str, faults))}")
+    if not isinstance(decay, int | float | np.number) or not 0.0 < decay < np.inf:
+        raise DesignError(f"decay is a rate in 1/s above 0, got {decay!r}")
+    require_known(solver)

@@ -103,16 +103,21 @@ def require_solvable(
     if found.solvable:
         return
     others = [other for other in faults if other != name]
+    where = f" at rho = {[float(f'{r:.4g}') for r in found.at_rho]}" if found.at_rho else ""
+    if not np.all(np.linalg.norm(at(faults[name], np.array(found.at_rho)), axis=0) > 0.0):
+        raise DesignError(
+            f"fault {name!r} does nothing{where}: its direction is zero there. Take a box without that point"
+        )
     if not _shows(C, A, faults[name], box):
         raise DesignError(
-            f"fault {name!r} cannot be seen at all: its direction lies in what the outputs never show. Measure more outputs"
+            f"fault {name!r} cannot be seen at all{where}: its direction lies in what the outputs never show. Measure more "
+            "outputs, or give states in units in which the numbers of A and C are about one"
         )
     hiding = [
         other
         for other in others
         if not solvability(unobservability_subspace(list(A), C, span(faults[other])), faults[name], box).solvable
     ] or others
-    where = f" at rho = {[float(f'{r:.4g}') for r in found.at_rho]}" if found.at_rho else ""
     together = " together" if len(hiding) > 1 and len(hiding) == len(others) else ""
     raise DesignError(
         f"fault {name!r} cannot be isolated from {' and '.join(map(repr, hiding))}{together}: its direction lies in their "

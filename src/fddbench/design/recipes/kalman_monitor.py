@@ -43,12 +43,12 @@ class KalmanMonitorRecipe(ModelRecipe):
         model = self.affine()
         if len(model.A) > 1:
             raise DesignError(
-                "a Kalman monitor is for one flight condition: give recipe.at, or a model of one matrix each"
+                "recipe.model: a Kalman monitor is for one flight condition: give recipe.at, or a model of one matrix each"
             )
         n, n_u, n_y = model.A.shape[1], model.B.shape[2], len(model.C)
         if len(self.output_noise) != n_y or len(self.process_noise) != n:
             raise DesignError(
-                f"recipe needs {n_y} numbers output_noise and {n} process_noise, got {len(self.output_noise)} and "
+                f"recipe: needs {n_y} numbers output_noise and {n} process_noise, got {len(self.output_noise)} and "
                 f"{len(self.process_noise)}"
             )
         A, B, Q = _sampled(model.A[0], model.B[0], np.diag(np.square(self.process_noise)), self.sample_s)

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from fddbench.design.geometric.affine import Box
 from fddbench.errors import DesignError
 from fddbench.interfaces import AffineModel, Channel, Floats, Scheduling
 
@@ -36,6 +37,12 @@ def linearised(model: AffineModel, scheduling: Scheduling, at: Mapping[str, floa
         raise DesignError(
             f"recipe.at: {', '.join(missing)} missing; give every signal that model and scheduling look at"
         )
+    unknown = [name for name in at if name not in (*needed, *scheduling.signals)]
+    if unknown:
+        raise DesignError(
+            f"recipe.at: nothing looks at {', '.join(unknown)}; model and scheduling look at "
+            f"{', '.join(dict.fromkeys([*needed, *scheduling.signals]))}"
+        )
     if model.C.shape[0] != model.C.shape[1] or np.linalg.matrix_rank(model.C) < len(model.C):
         raise DesignError("recipe.at needs a model whose outputs give its state: C square and regular")
     u0 = np.array([_number(c, at) for c in model.inputs])
@@ -52,6 +59,7 @@ def linearised(model: AffineModel, scheduling: Scheduling, at: Mapping[str, floa
         found: Floats = np.tensordot(factors, model.A, axes=1) @ x + np.tensordot(factors, model.B, axes=1) @ u0
         return found
 
+    _refuse_outside(rho(x0), Box.of(model.box.tolist() or None, len(model.A) - 1))
     J = np.empty_like(model.A[0])
     for j, h in enumerate(_STEP * np.maximum(np.abs(x0), 1.0)):
         moved = np.zeros_like(x0)
@@ -67,6 +75,16 @@ def linearised(model: AffineModel, scheduling: Scheduling, at: Mapping[str, floa
         inputs=(*(replace(model.inputs[j], offset=at[model.inputs[j].signal]) for j in signals), Channel()),
         box=np.zeros((0, 2)),
     )
+
+
+def _refuse_outside(rho: Floats, box: Box) -> None:
+    """Refuse a condition at which a parameter is no number or lies outside its box, by more than a hundredth of it."""
+    low, high = box.low, box.high
+    margin = 0.02 * box.half
+    outside = np.flatnonzero(~((rho >= low - margin) & (rho <= high + margin)))
+    if len(outside):
+        said = ", ".join(f"rho {j + 1} = {rho[j]:.4g}, not in {low[j]:.4g} ... {high[j]:.4g}" for j in outside)
+        raise DesignError(f"recipe.at: the condition lies outside the box of the model: {said}. Choose one inside")
 
 
 def _number(channel: Channel, at: Mapping[str, float]) -> float:

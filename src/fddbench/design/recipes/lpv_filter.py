@@ -10,8 +10,8 @@ from fddbench.campaign.rules.model import Name, Strict
 from fddbench.design.geometric import ResidualGenerator, residual_generator
 from fddbench.design.geometric.affine import Box, family
 from fddbench.design.recipes.model_keys import Family, ModelRecipe, as_family, channel_data
-from fddbench.design.recipes.recipe import Made, short
-from fddbench.detection.lpv_filter.gains import TrimEntry
+from fddbench.design.recipes.recipe import Made, RecipeError, short
+from fddbench.detection.lpv_filter.gains import NonZero, TrimEntry
 from fddbench.errors import DesignError
 from fddbench.interfaces import AffineModel, Floats
 
@@ -36,7 +36,7 @@ class DirectionEntry(Strict):
 
     input: str | None = None
     direction: Family | None = None
-    unit_per_fault: float = 1.0
+    unit_per_fault: NonZero = 1.0
 
 
 Directions = dict[Name, DirectionEntry]
@@ -82,15 +82,8 @@ class LpvFilterRecipe(ModelRecipe):
 
     def make(self) -> Made:
         """Bank of the recipe, and what is known of each filter."""
-        twice = sorted(set(self.faults) & set(self.blind_to))
-        if twice:
-            raise DesignError(f"recipe.blind_to: {twice[0]!r} has a filter; take it away there or from faults")
-        unknown = sorted(set(self.smooth_s) - set(self.faults))
-        if unknown:
-            raise DesignError(f"recipe.smooth_s: no filter for {unknown[0]!r}; there are {', '.join(self.faults)}")
         model = self.affine()
-        entries = {**self.faults, **self.blind_to}
-        directions = {name: _direction(name, entry, model) for name, entry in entries.items()}
+        directions = self._directions(model)
         box = Box.of(model.box.tolist() or None, len(model.A) - 1)
         bank = residual_generator(
             model.A, model.B, model.C, {name: L for name, (L, _) in directions.items()},
@@ -111,6 +104,23 @@ class LpvFilterRecipe(ModelRecipe):
         moving = box.active(model.A)
         found = {"parameters_in_A": [j + 1 for j in moving], "corners": 2 ** len(moving)}
         return Made(gains=gains, found=found | {name: _findings(one) for name, one in bank.items()})
+
+    def _directions(self, model: AffineModel) -> dict[str, tuple[Floats, float]]:
+        """Direction of every fault, and the unit of its site per unit in the model; all that is wrong at once."""
+        twice = sorted(set(self.faults) & set(self.blind_to))
+        unknown = sorted(set(self.smooth_s) - set(self.faults))
+        wrong = [f"recipe.blind_to: {name!r} has a filter; take it away there or from faults" for name in twice]
+        known = ", ".join(self.faults)
+        wrong += [f"recipe.smooth_s: no filter for {name!r}; there are {known}" for name in unknown]
+        directions = {}
+        for name, entry in (self.faults | self.blind_to).items():
+            try:
+                directions[name] = _direction(name, entry, model)
+            except DesignError as error:
+                wrong.append(error.message)
+        if wrong:
+            raise RecipeError(tuple(wrong))
+        return directions
 
     def _smoothed(self, name: str) -> dict[str, float]:
         return {"smooth_s": self.smooth_s[name]} if self.smooth_s.get(name) else {}

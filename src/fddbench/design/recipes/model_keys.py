@@ -4,14 +4,14 @@ from collections.abc import Mapping
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import Field
+from pydantic import Discriminator, Field, Tag
 
 from fddbench import kinds
 from fddbench.design.geometric.affine import family
 from fddbench.design.recipes.linearisation import linearised
 from fddbench.design.recipes.recipe import Recipe
 from fddbench.detection.lpv_filter.gains import ChannelEntry
-from fddbench.errors import DesignError, did_you_mean
+from fddbench.errors import DesignError, FddbenchError, did_you_mean
 from fddbench.interfaces import AffineModel, Channel
 
 __all__ = ["Family", "ModelRecipe", "as_family", "channel_data"]
@@ -39,7 +39,10 @@ class ModelRecipe(Recipe):
     """
 
     scheduling: str | None = None
-    model: str | dict[str, Family]
+    model: Annotated[
+        Annotated[str, Tag("name")] | Annotated[dict[str, Family], Tag("matrices")],
+        Discriminator(lambda given: "matrices" if isinstance(given, dict) else "name"),
+    ]
     box: Matrix | None = None
     outputs: Annotated[tuple[ChannelEntry, ...], Field(min_length=1)] | None = None
     inputs: tuple[ChannelEntry, ...] | None = None
@@ -60,7 +63,7 @@ class ModelRecipe(Recipe):
         if self.at is None:
             return named
         if scheduling is None:
-            raise DesignError("recipe.at linearises a model that has scheduling parameters; this one has none")
+            raise DesignError("recipe.at: it linearises a model that has scheduling parameters; this one has none")
         return linearised(named, scheduling, self.at)
 
     @property
@@ -70,7 +73,10 @@ class ModelRecipe(Recipe):
 
     def _scheduling(self) -> Any:
         assert self.scheduling is not None
-        return kinds.find("scheduling", self.scheduling, beside=self.beside).member()
+        try:
+            return kinds.find("scheduling", self.scheduling, beside=self.beside).member()
+        except FddbenchError as error:
+            raise DesignError(f"recipe.scheduling: {error}") from error
 
     def _named(self, scheduling: Any) -> AffineModel:
         models = getattr(scheduling, "models", {})
@@ -88,8 +94,8 @@ class ModelRecipe(Recipe):
     def _own(self, given: Mapping[str, Any], scheduling: Any) -> AffineModel:
         if set(given) != {"A", "B", "C"} or self.outputs is None or self.inputs is None:
             raise DesignError(
-                "a model of one's own is model: {A, B, C} with outputs and inputs, a channel for each row of C and column of "
-                f"B; got {', '.join(given)}"
+                "recipe.model: a model of one's own is model: {A, B, C} with outputs and inputs, a channel for each row of C "
+                f"and column of B; got {', '.join(given)}"
             )
         n_rho = 0 if scheduling is None else len(scheduling.parameters)
         A = family("recipe.model.A", _lone(given["A"]), (None, None), n_rho)

@@ -9,8 +9,21 @@ from typing import Any
 from pydantic import Field, PrivateAttr
 
 from fddbench.campaign.rules.model import Strict
+from fddbench.errors import DesignError
 
-__all__ = ["Made", "Recipe", "short"]
+__all__ = ["Made", "Recipe", "RecipeError", "short"]
+
+
+class RecipeError(DesignError):
+    """Several keys of a recipe that do not go together, told at once."""
+
+    def __init__(self, messages: tuple[str, ...]) -> None:
+        super().__init__("\n".join(messages))
+        self.messages = messages
+
+    def __reduce__(self) -> tuple[type["RecipeError"], tuple[tuple[str, ...]]]:
+        """From another process as it was."""
+        return type(self), (self.messages,)
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,7 @@ from fddbench.design.tracking.hinf import as_law, closed_norm, reduce_order, slo
 from fddbench.design.tracking.interconnection import generalised_plant
 from fddbench.design.tracking.lqi import lqi_law
 from fddbench.design.tracking.scheduled import envelope_points, fitted
+from fddbench.errors import DesignError
 from fddbench.interfaces import Floats
 from fddbench.systems import StateSpace
 
@@ -64,6 +65,10 @@ def _scheduled(recipe: "TrackingRecipe") -> tuple[dict[str, Any], dict[str, Any]
     knots = np.array(recipe.dynamic_pressure_pa)
     points = envelope_points(recipe.v_tas_m_s, recipe.altitude_m)
     tolerances = recipe.tolerances.tolerances()
+    if not points:
+        raise DesignError(
+            "recipe.altitude_m: no point of its grid with v_tas_m_s can be flown; choose points of the envelope"
+        )
     laws = [lqi_law(flying, tolerances) for flying in linear_aircrafts(points) if flying is not None]
     C, D = fitted(points, laws, knots)
     law = _law(recipe, laws[0], C, D, knots)

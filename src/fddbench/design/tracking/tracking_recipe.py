@@ -1,13 +1,15 @@
 """The keys of a recipe that makes a `tracking_law`, and what values they take: what ``fddbench design`` runs for a law."""
 
+from itertools import pairwise
 from typing import Annotated, Literal
 
 from pydantic import Field
 
-from fddbench.design.recipes.recipe import Made, Recipe
+from fddbench.design.recipes.recipe import Made, Recipe, RecipeError
 from fddbench.design.tracking.law_entries import HandoverEntry, Positive, TolerancesEntry, Values, WeightsEntry
 from fddbench.design.tracking.making import made
 from fddbench.errors import DesignError
+from fddbench.flight.b747.airframe import DATA
 
 __all__ = ["TrackingRecipe"]
 
@@ -77,3 +79,18 @@ class TrackingRecipe(Recipe):
             raise DesignError(
                 f"recipe.method {self.method} designs at one point: one altitude_m and one v_tas_m_s, each in a list"
             )
+        if self.method != "scheduled_lqi":
+            self._require_envelope()
+        knots = self.dynamic_pressure_pa or ()
+        if any(after <= before for before, after in pairwise(knots)):
+            raise DesignError(f"recipe.dynamic_pressure_pa: must rise from knot to knot, got {list(knots)}")
+
+    def _require_envelope(self) -> None:
+        """Refuse a point where the aerodynamics are not known."""
+        wrong = []
+        for key, unit in (("altitude_m", "m"), ("v_tas_m_s", "m/s")):
+            (value,), (low, high) = getattr(self, key), DATA["envelope"][key]
+            if not low <= value <= high:
+                wrong.append(f"recipe.{key}: must lie in {low:g} ... {high:g} [{unit}], the envelope, got {value:g}")
+        if wrong:
+            raise RecipeError(tuple(wrong))

@@ -2,13 +2,21 @@
 
 from typing import Annotated, ClassVar, Self
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 
-__all__ = ["ChannelEntry", "FilterEntry", "LpvFilterGains", "TrimEntry"]
+__all__ = ["ChannelEntry", "FilterEntry", "LpvFilterGains", "NonZero", "TrimEntry"]
+
+
+def _not_zero(value: float) -> float:
+    if value == 0.0:
+        raise ValueError("must not be 0: nothing would be left of it")
+    return value
+
 
 Number = Annotated[float, Field(allow_inf_nan=False)]
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 NonNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
+NonZero = Annotated[Number, AfterValidator(_not_zero)]
 Matrix = Annotated[tuple[tuple[Number, ...], ...], Field(min_length=1)]
 Family = Annotated[tuple[Matrix, ...], Field(min_length=1)]
 
@@ -36,7 +44,7 @@ class ChannelEntry(_Strict):
 
     signal: str | None = None
     constant: Number | None = None
-    scale: Number = 1.0
+    scale: NonZero = 1.0
     offset: Number = 0.0
     row: Annotated[int, Field(ge=0)] | None = None
     held: bool = False
