@@ -126,7 +126,7 @@ class Mistake:
     Attributes
     ----------
     where : str
-        ``file:line:column``.
+        ``file:line:column``; empty where it stands in no file, such as a design that a command names.
     message : str
         What was received, what is allowed, what to do.
     """
@@ -136,7 +136,7 @@ class Mistake:
 
     def __str__(self) -> str:
         """One line, as compilers print it."""
-        return f"{self.where}: {self.message}"
+        return f"{self.where}: {self.message}" if self.where else self.message
 
 
 @dataclass(eq=False)

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fddbench.design.tuning import held_peaks, tuned
-from fddbench.errors import DesignError
+from fddbench.errors import CampaignError, DesignError, Mistake
 
 
 @given(st.integers(1, 200), st.integers(1, 4), st.floats(0.0, 0.99), st.integers(0, 10**6))
@@ -45,3 +45,8 @@ def test_flights_that_have_ended_do_not_count():
 def test_residuals_that_stay_at_zero_are_refused():
     with pytest.raises(DesignError, match="stays at zero"):
         tuned(np.zeros((5, 2)), 0.0)
+
+
+def test_a_design_of_another_aircraft_is_refused_without_a_place_in_no_file():
+    said = str(CampaignError((Mistake("", "design 'x' needs other signals"),)))
+    assert said == "design 'x' needs other signals"

@@ -113,9 +113,16 @@ def test_sizes_alone_and_other_maps():
         summarize_detectable(rows, [replace(MAP, times="mach")])
 
 
+def test_few_flights_that_are_drawn_are_no_grid():
+    for n in (2, 8, 12):
+        _, cells = of(summarize_detectable(frame(n), [MAP]), "good")
+        assert cells["flights"].tolist() == [n]
+
+
 def test_a_grid_has_a_cell_for_each_of_its_values():
     rows = frame(200)
-    rows["p_v_m_s"] = np.array([110.0, 120.0, 150.0])[rows["run"].to_numpy(dtype=int) % 3]
+    rows["point"] = rows["run"].to_numpy(dtype=int) % 3
+    rows["p_v_m_s"] = np.array([110.0, 120.0, 150.0])[rows["point"]]
     rows["p_altitude_m"] = 5.0
     _, cells = of(summarize_detectable(rows, [MAP]), "good")
     ends = [(line["x_low"], line["x_high"]) for line in cells.to_dict("records")]

@@ -10,7 +10,7 @@ import pytest
 import yaml
 from tests.runner.test_same_bits import bits
 
-from fddbench import load, testing
+from fddbench import gallery, load, testing
 from fddbench.api.checking import described
 from fddbench.api.flights import score, signals
 from fddbench.api.pages import report
@@ -290,3 +290,9 @@ def test_a_loop_that_reconfigures_is_checked(tmp_path):
         (tmp_path / "standby.py").write_text(text.replace(sound, line), encoding="utf-8")
         with pytest.raises(AssertionError, match=message):
             testing.check_benchmark("standby.py:Standby", beside=tmp_path)
+
+
+def test_open_loop_hands_nothing_over_and_says_so():
+    campaign = gallery.folder("campaigns") / "b747_reconfiguration.yaml"
+    with pytest.raises(CampaignError, match="law open_loop.*cannot act on what a detector declares"):
+        assemble(read_campaign(campaign, ["law=open_loop"]))

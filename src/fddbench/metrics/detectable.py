@@ -89,7 +89,8 @@ def _lines(rows: pd.DataFrame, wanted: Detectability) -> Iterator[dict[str, Any]
     for scenario in shown["scenario"].unique():
         flown = _where(shown, shown["scenario"] == scenario)
         flights = flown.drop_duplicates("case")
-        edges = [_edges(_numbers(flights, names[axis]), len(flights)) for axis in wanted.axes]
+        points = int(flights["point"].nunique())
+        edges = [_edges(_numbers(flights, names[axis]), len(flights), points) for axis in wanted.axes]
         for detector in flown["detector"].unique():
             own = _where(flown, flown["detector"] == detector)
             if not own["watched"].to_numpy(dtype=bool, na_value=False).any():
@@ -140,13 +141,13 @@ def _answer(sizes: Floats, in_time: Mask, runs: npt.NDArray[np.int64]) -> dict[s
     return line
 
 
-def _edges(values: Floats, n_flights: int) -> Floats:
-    """Edges of the cells along an axis."""
+def _edges(values: Floats, n_flights: int, n_points: int) -> Floats:
+    """Edges of the cells along an axis; of more values than points they are drawn, however few flights there are."""
     own = np.unique(values)
     if len(own) == 1:
         half = max(0.05 * abs(float(own[0])), 0.5)
         return np.array([own[0] - half, own[0] + half])
-    if len(own) <= _FEW_VALUES:
+    if len(own) <= min(_FEW_VALUES, n_points):
         middle = 0.5 * (own[1:] + own[:-1])
         return np.array([2.0 * own[0] - middle[0], *middle, 2.0 * own[-1] - middle[-1]])
     count = min(max(round(np.sqrt(n_flights / _PER_CELL)), 1), _MOST_CELLS)

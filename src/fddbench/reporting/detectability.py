@@ -117,7 +117,8 @@ def _picture(own: pd.DataFrame, alarms: dict[str, Line]) -> str | None:
     columns = min(3, max(2, len(detectors)))
     n_rows = -(-len(detectors) // columns)
     known = own["smallest"].to_numpy(dtype=float, na_value=np.nan)
-    norm = mpl.colors.Normalize(0.0, float(np.nanmax(known)) if np.isfinite(known).any() else 1.0)
+    largest = float(np.max(known, where=np.isfinite(known), initial=0.0))
+    norm = mpl.colors.Normalize(0.0, largest or 1.0)
     colours = mpl.colormaps["viridis_r"]
 
     def draw(figure: "Figure") -> None:
@@ -129,8 +130,9 @@ def _picture(own: pd.DataFrame, alarms: dict[str, Line]) -> str | None:
         for axes in panels[len(detectors) :]:
             axes.set_visible(False)
         first = own.iloc[0]
-        bar = figure.colorbar(mpl.cm.ScalarMappable(norm, colours), ax=panels.tolist(), shrink=0.9, pad=0.01)
-        bar.set_label(f"{quantity(first['size'], first['times'])} found in {100 * SHARE:g} %")
+        if largest:  # else no cell has a colour
+            bar = figure.colorbar(mpl.cm.ScalarMappable(norm, colours), ax=panels.tolist(), shrink=0.9, pad=0.01)
+            bar.set_label(f"{quantity(first['size'], first['times'])} found in {100 * SHARE:g} %")
         _legend(figure, own)
 
     return to_png(draw, width_in=11.4, height_in=0.5 + 3.6 * n_rows)

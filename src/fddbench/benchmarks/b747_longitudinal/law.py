@@ -27,7 +27,10 @@ class Orders:
 
 
 class Law(Protocol):
-    """A control law; a class made from ``(sample_s)``, a block."""
+    """A control law; a class made from ``(sample_s)``, a block.
+
+    One that does not look at ``elevator_declared`` says ``reconfigures = False``: campaigns with ``reconfigure`` refuse it.
+    """
 
     states: Layout[Any]
     constants: Layout[Any]

@@ -79,7 +79,6 @@ class LongitudinalLoop:
         Clock and faults.
     """
 
-    reconfigures = True
     truth = (
         "alpha_true_deg",
         "q_true_deg_s",
@@ -99,6 +98,7 @@ class LongitudinalLoop:
         self, plant: LongitudinalPlant, sites: tuple[Site, ...], law: Law, noise: Noise, wind: Wind, options: Options
     ) -> None:
         self.plant, self.law, self.wind, self.sample_s = plant, law, wind, options.sample_s
+        self.reconfigures: bool = getattr(law, "reconfigures", True)  # what is in trim all the time hands nothing over
         self.elevator_faults = SignalFaults(sites, "elevator_deg", options.faults, options.sample_s)
         self.thrust_faults = SignalFaults(sites, "thrust_n", options.faults, options.sample_s)
         self.sensors, self.actuators = Sensors(noise), Actuators(options.sample_s)

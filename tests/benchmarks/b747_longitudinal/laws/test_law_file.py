@@ -35,6 +35,13 @@ def test_a_shipped_law_is_discretised_by_tustin_s_rule(name):
         ({"inputs": ["pitch_deg"]}, "inputs of a law are flight_path_error_deg"),
         ({"A": [[1.0, 2.0], [3.0]]}, "ValueError"),
         ({"B": [[1.0]]}, r"B needs finite numbers of shape \(7, 7\), got shape \(1, 1\)"),
+        ({"inputs": None}, "inputs of a law are flight_path_error_deg.*got None"),
+        ({"outputs": 3}, "outputs of a law are elevator_deg.*got 3"),
+        ({"handovr": 3}, "unknown key handovr; allowed: inputs, outputs"),
+        (
+            {"handover": {"lead_s": 2.0, "lag_s": 0.0, "command_lag_s": -1.0}},
+            "must be > 0 .s., got lag_s = 0, command_lag_s = -1",
+        ),
         ({"handover": {"lead_s": 2.0}}, "handover: {lead_s, lag_s, command_lag_s}"),
         ({"dynamic_pressure_pa": [2.0, 1.0]}, r"C needs finite numbers of shape \(2, 2, 7\)"),
     ],
@@ -48,6 +55,10 @@ def test_knots_rise_and_a_law_says_that_it_is_one(tmp_path):
     own = gains("scheduled")
     with pytest.raises(DesignError, match="dynamic_pressure_pa needs two or more numbers in rising order"):
         law_of(own | {"dynamic_pressure_pa": own["dynamic_pressure_pa"][::-1]}, where="mine.yaml")
+    (tmp_path / "no.yaml").write_text("gains: {")
+    for name in ("no.yaml", "nowhere.yaml"):
+        with pytest.raises(DesignError, match=f"{name} cannot be read"):
+            read_law(tmp_path / name)
     (tmp_path / "no.yaml").write_text("kind: hinf_filter\n")
     with pytest.raises(DesignError, match="holds no law"):
         read_law(tmp_path / "no.yaml")

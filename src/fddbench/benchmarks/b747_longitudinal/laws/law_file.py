@@ -22,6 +22,7 @@ INPUTS = (
 """Command minus measured flight path and airspeed, then what is measured, as deviations from trim."""
 OUTPUTS = ("elevator_deg", "thrust_n")
 """Orders minus trim; thrust is that of one engine."""
+_KEYS = ("inputs", "outputs", "dynamic_pressure_pa", *"ABCDE", "handover")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,9 +91,12 @@ def read_law(path: Path) -> TrackingLaw:
     Raises
     ------
     DesignError
-        A key is missing or unknown, signals are not `INPUTS` and `OUTPUTS`, or matrices do not fit.
+        The file cannot be read, a key is missing or unknown, signals are not `INPUTS` and `OUTPUTS`, or matrices do not fit.
     """
-    data = yaml.load(path.read_text(encoding="utf-8"), Loader=_LOADER)
+    try:
+        data = yaml.load(path.read_text(encoding="utf-8"), Loader=_LOADER)
+    except (OSError, UnicodeError, yaml.YAMLError) as error:
+        raise DesignError(f"{path} cannot be read: {' '.join(str(error).split())}") from error
     if not isinstance(data, dict) or data.get("kind") != "tracking_law" or not isinstance(data.get("gains"), dict):
         raise DesignError(f"{path} holds no law: expected kind: tracking_law, and gains")
     return law_of(data["gains"], where=f"{path}: gains")
@@ -100,9 +104,13 @@ def read_law(path: Path) -> TrackingLaw:
 
 def law_of(data: dict[str, Any], *, where: str) -> TrackingLaw:
     """Law of the gains of a file; `where` they stand, for messages."""
+    unknown = [str(key) for key in data if key not in _KEYS]
+    if unknown:
+        raise DesignError(f"{where}: unknown key {', '.join(unknown)}; allowed: {', '.join(_KEYS)}")
     for key, known in (("inputs", INPUTS), ("outputs", OUTPUTS)):
-        if tuple(data.get(key, ())) != known:
-            raise DesignError(f"{where}: {key} of a law are {', '.join(known)}, in this order; got {data.get(key)}")
+        given = data.get(key)
+        if not isinstance(given, list) or tuple(given) != known:
+            raise DesignError(f"{where}: {key} of a law are {', '.join(known)}, in this order; got {given}")
     try:
         A, B, C, D, E = (np.asarray(data[name], dtype=float) for name in "ABCDE")
         handover = Handover(**{key: float(value) for key, value in data["handover"].items()})
@@ -112,6 +120,9 @@ def law_of(data: dict[str, Any], *, where: str) -> TrackingLaw:
             f"{where}: {type(error).__name__} {error}; a law has matrices A, B, C, D and E with rows of one length, and "
             "handover: {lead_s, lag_s, command_lag_s}"
         ) from error
+    lags = [f"{key} = {value:g}" for key, value in vars(handover).items() if not 0.0 < value < np.inf]
+    if lags:
+        raise DesignError(f"{where}: times of handover must be > 0 [s], got {', '.join(lags)}")
     if not len(knots):
         C, D = C[np.newaxis], D[np.newaxis]
     n, k = len(A), max(len(knots), 1)

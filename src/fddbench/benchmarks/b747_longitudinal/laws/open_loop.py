@@ -16,6 +16,7 @@ __all__ = ["OpenLoop"]
 class OpenLoop:
     """Orders that stay in trim whatever is commanded, as for Fig. 1; a pulse of the manoeuvre still reaches the elevator."""
 
+    reconfigures = False
     states: Layout[Any] = NOTHING
     constants = Layout(TRIM_POINT)
     draws: Draws[Any] = NO_DRAWS
