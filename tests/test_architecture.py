@@ -95,8 +95,11 @@ def _parts(path: Path) -> list[str]:
     ]
 
 
+NAMED = re.compile(r"fddbench(\.\w+)+:\w+")
+
+
 def _imports(module: str) -> set[str]:
-    """Modules that a module of the package imports."""
+    """Modules that a module of the package imports, or names as the place of a choice."""
     path = SOURCE.joinpath(*module.split(".")[1:])
     file = path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
     found: set[str] = set()
@@ -105,6 +108,8 @@ def _imports(module: str) -> set[str]:
             found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
             found |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str) and NAMED.fullmatch(node.value):
+            found.add(node.value.split(":")[0])
     return found
 
 

@@ -6,17 +6,18 @@ lacks something is told with place and cure, to those who ask for it and nobody 
 """
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
+from pkgutil import resolve_name
 from typing import Any
 
 from fddbench.errors import FddbenchError, UnknownNameError, reason_of
 from fddbench.plugin_files import is_file_kind, load_class
 
-__all__ = ["FAMILIES", "Kind", "find", "is_file_kind", "known", "load", "registered"]
+__all__ = ["FAMILIES", "Kind", "Named", "find", "is_file_kind", "known", "load", "registered"]
 
 FAMILIES: Mapping[str, tuple[str, ...]] = {
     "benchmark": ("name", "about", "choices", "shown", "limits_from", "plant", "loop"),
@@ -52,6 +53,30 @@ class Kind:
     name: str
     member: Any
     files: Mapping[str, bytes] = field(default_factory=dict, repr=False)
+
+
+class Named(Mapping[str, Any]):
+    """Members by name, given as ``package.module:Member``; a module is imported when its member is asked for, not before.
+
+    >>> voters = Named({"median": "fddbench.voting.median:Median", "other": "fddbench.voting.nowhere:Other"})
+    >>> list(voters), "other" in voters, voters["median"].__name__
+    (['median', 'other'], True, 'Median')
+    """
+
+    def __init__(self, places: Mapping[str, str]) -> None:
+        self._places = dict(places)
+
+    def __getitem__(self, name: str) -> Any:
+        return resolve_name(self._places[name])
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._places
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._places)
+
+    def __len__(self) -> int:
+        return len(self._places)
 
 
 @cache

@@ -1,8 +1,10 @@
 """Tables of a folder of results."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from functools import partial
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 
 from fddbench.api.detectability import detectable_of
@@ -14,7 +16,7 @@ from fddbench.results import table
 from fddbench.results.schema import CASE, EVENTS, rows_schema
 from fddbench.runner.fingerprint import frozen
 
-__all__ = ["alarms", "columns", "detectable", "load", "load_events", "summary"]
+__all__ = ["alarms", "columns", "detectable", "load", "load_events", "overview", "summary"]
 
 
 def load(folder: str | Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
@@ -41,6 +43,29 @@ def summary(folder: str | Path) -> pd.DataFrame:
 def alarms(folder: str | Path) -> pd.DataFrame:
     """One line per detector: false alarms of its distinct flights; columns of `fddbench.metrics.alarms.ALARMS`."""
     return summarize_alarms(table.load(folder, ["case", *NEEDS]), in_sample=in_sample(folder))
+
+
+def overview(folder: Path) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """What `summary` and `alarms` give, for those who say themselves whether the folder is whole.
+
+    Of a large campaign the rows of one detector at a time are in memory.
+
+    Raises
+    ------
+    ResultsError
+        As `load`.
+    """
+    own = in_sample(folder)
+    # map lets go of one part before it asks for the next
+    parts = list(map(partial(_summarized, own), table.read_in_parts(folder, NEEDS)))
+    lines, of_alarms = (pd.concat(each, ignore_index=True) for each in zip(*parts, strict=True))
+    # scenarios in the order of the rows, in each the detectors likewise
+    order = np.argsort(pd.factorize(lines["scenario"])[0], kind="stable")
+    return lines.iloc[order].reset_index(drop=True), of_alarms
+
+
+def _summarized(own: Collection[str], rows: pd.DataFrame) -> tuple[pd.DataFrame, pd.DataFrame]:
+    return summarize(rows, in_sample=own), summarize_alarms(rows, in_sample=own)
 
 
 def detectable(folder: str | Path) -> pd.DataFrame:

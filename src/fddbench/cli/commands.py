@@ -42,26 +42,32 @@ def run(args: argparse.Namespace) -> int:
             file=sys.stderr,
         )
         return 130
-    _summary(folder, wide=args.wide)
+    _summary(folder, wide=args.wide, failed=report.failed_rows > 0)
     again = f", {report.continued} found done" if report.continued else ""
     print(f"\n{report.flights} flights flown{again} in {report.wall_s:.1f} s; results in {folder}")
     print(f"next: fddbench report {folder}")
     return 1 if report.failed_rows else 0
 
 
-def _summary(folder: Path, *, wide: bool) -> None:
-    """Print the summary table of a folder of results."""
-    from fddbench.api.tables import in_sample
-    from fddbench.metrics.alarms import summarize_alarms
-    from fddbench.metrics.summary import NEEDS, summarize
+def _summary(folder: Path, *, wide: bool, failed: bool) -> None:
+    """Print the summary table of a folder of results, and which of its flights failed."""
+    from fddbench.api.tables import overview
     from fddbench.reporting.terminal import to_text
-    from fddbench.results.table import read_rows
     from fddbench.results.whole import holdings
 
-    rows, own, found = read_rows(folder, ["reason", *NEEDS]), in_sample(folder), holdings(folder)
+    found = holdings(folder)
     if found.partial:
         print(f"not the whole campaign: {found.sentence}")
-    print(to_text(summarize(rows, in_sample=own), summarize_alarms(rows, in_sample=own), wide=wide))
+    print(to_text(*overview(folder), wide=wide))
+    if failed:
+        _failures(folder)
+
+
+def _failures(folder: Path) -> None:
+    """Print what went wrong in which flights."""
+    from fddbench.results.table import read_rows
+
+    rows = read_rows(folder, ["scenario", "point", "level", "run", "detector", "status", "reason"])
     failed = rows[~rows["status"].isin(["ok", "infeasible"])]
     for (detector, status, reason), group in failed.groupby(["detector", "status", "reason"], dropna=False):
         first = group[["scenario", "point", "level", "run"]].head(3)

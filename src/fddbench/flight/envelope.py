@@ -6,7 +6,7 @@ choice from open literature; the published aircraft is not public. A user with b
 would not fly.
 """
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,8 +14,10 @@ from fddbench.blocks.functions import interpolate
 from fddbench.blocks.layout import Rows
 from fddbench.blocks.linear import column
 from fddbench.flight.atmosphere import GRAVITY_M_S2, density_kg_m3, dynamic_pressure_pa, mach
-from fddbench.flight.transport.aircraft import Aircraft
-from fddbench.flight.transport.reading import twin_jet
+from fddbench.flight.transport.shipped import shipped_numbers
+
+if TYPE_CHECKING:
+    from fddbench.flight.transport.aircraft import Aircraft
 
 __all__ = ["buffet_lift", "drag_n", "infeasible_reasons", "lift_coefficient", "thrust_available_n"]
 
@@ -23,24 +25,24 @@ _SEA_LEVEL_KG_M3 = 1.225
 
 
 def lift_coefficient(
-    mass_kg: Rows, altitude_ft: Rows, v_cas_kt: Rows, *, load_factor: Rows = 1.0, aircraft: Aircraft | None = None
+    mass_kg: Rows, altitude_ft: Rows, v_cas_kt: Rows, *, load_factor: Rows = 1.0, aircraft: "Aircraft | None" = None
 ) -> Rows:
     """Lift coefficient that carries the load factor [-]."""
-    area_m2 = (aircraft or twin_jet()).geometry.wing_area_m2
+    area_m2 = (aircraft or shipped_numbers()).geometry.wing_area_m2
     return load_factor * mass_kg * GRAVITY_M_S2 / (dynamic_pressure_pa(v_cas_kt, altitude_ft) * area_m2)
 
 
-def buffet_lift(number: Rows, aircraft: Aircraft | None = None) -> Rows:
+def buffet_lift(number: Rows, aircraft: "Aircraft | None" = None) -> Rows:
     """Lift coefficient at which the buffet begins at a Mach number [-], (n_cases,)."""
-    limits = (aircraft or twin_jet()).limits
+    limits = (aircraft or shipped_numbers()).limits
     return interpolate(number, column(limits.buffet_mach), column(limits.buffet_c_l))
 
 
 def drag_n(
-    mass_kg: Rows, altitude_ft: Rows, v_cas_kt: Rows, *, load_factor: Rows = 1.0, aircraft: Aircraft | None = None
+    mass_kg: Rows, altitude_ft: Rows, v_cas_kt: Rows, *, load_factor: Rows = 1.0, aircraft: "Aircraft | None" = None
 ) -> Rows:
     """Drag at a steady load factor [N], ``C_D = C_D0 + k C_L^2 + rise max(0, M - M_d + s (C_L - C_Ld))^3``."""
-    aircraft = aircraft or twin_jet()
+    aircraft = aircraft or shipped_numbers()
     polar = aircraft.drag
     lift = lift_coefficient(mass_kg, altitude_ft, v_cas_kt, load_factor=load_factor, aircraft=aircraft)
     past = mach(v_cas_kt, altitude_ft) - polar.rise_mach + polar.rise_per_lift * (lift - polar.rise_lift)
@@ -49,15 +51,15 @@ def drag_n(
     return drag * dynamic_pressure_pa(v_cas_kt, altitude_ft) * aircraft.geometry.wing_area_m2
 
 
-def thrust_available_n(altitude_ft: Rows, v_cas_kt: Rows, aircraft: Aircraft | None = None) -> Rows:
+def thrust_available_n(altitude_ft: Rows, v_cas_kt: Rows, aircraft: "Aircraft | None" = None) -> Rows:
     """Thrust of both engines [N], ``F_0 rho/rho0 (1 - c sqrt M)``."""
-    engines = (aircraft or twin_jet()).thrust
+    engines = (aircraft or shipped_numbers()).thrust
     share = density_kg_m3(altitude_ft) / _SEA_LEVEL_KG_M3
     return engines.sea_level_n * share * (1.0 - engines.per_root_mach * np.sqrt(mach(v_cas_kt, altitude_ft)))
 
 
 def infeasible_reasons(
-    mass_kg: Rows, altitude_ft: Rows, v_cas_kt: Rows, *, load_factor: Rows = 1.0, aircraft: Aircraft | None = None
+    mass_kg: Rows, altitude_ft: Rows, v_cas_kt: Rows, *, load_factor: Rows = 1.0, aircraft: "Aircraft | None" = None
 ) -> tuple[str, ...]:
     """Why each case cannot fly steadily, or the empty string.
 
@@ -70,7 +72,7 @@ def infeasible_reasons(
     aircraft : Aircraft, optional
         Whose limits; those of the shipped one.
     """
-    aircraft = aircraft or twin_jet()
+    aircraft = aircraft or shipped_numbers()
     more: dict[str, Any] = {"load_factor": load_factor, "aircraft": aircraft}
     factor = np.broadcast_to(load_factor, np.shape(v_cas_kt))
     number, limits = mach(v_cas_kt, altitude_ft), aircraft.limits

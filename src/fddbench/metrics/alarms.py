@@ -2,13 +2,12 @@
 
 from collections.abc import Collection
 
-import numpy as np
 import pandas as pd
 import pyarrow as pa
 
-from fddbench.metrics.distinct import distinct_flights
+from fddbench.metrics.distinct import NEEDS, distinct_flights
 from fddbench.metrics.exposure import alarm_rate
-from fddbench.metrics.shares import column, percents, pools, share_columns
+from fddbench.metrics.shares import column, flown_of, percents, pools, share_columns
 
 __all__ = ["ALARMS", "alarm_columns", "of_flights", "summarize_alarms"]
 
@@ -55,8 +54,8 @@ def of_flights(flown: pd.DataFrame) -> dict[str, int | float | None]:
 def summarize_alarms(rows: pd.DataFrame, *, in_sample: Collection[str] = ()) -> pd.DataFrame:
     """One line per detector in order of appearance, over all its distinct flights; columns of `ALARMS`."""
     lines = []
-    for detector, group in rows.groupby("detector", sort=False):
-        flown = group[np.asarray(group["status"] == "ok", dtype=bool)]
+    for detector, group in rows[list(NEEDS)].groupby("detector", sort=False):
+        flown = flown_of(group)
         who = {"detector": detector, "in_sample": detector in in_sample, "runs": flown["run"].nunique()}
         lines.append(who | {"pools": pools(flown, "manoeuvre", "point")} | of_flights(flown))
     found: pd.DataFrame = pa.Table.from_pylist(lines, schema=ALARMS).to_pandas(types_mapper=pd.ArrowDtype)

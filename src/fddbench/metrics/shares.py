@@ -9,7 +9,7 @@ import pyarrow as pa
 
 from fddbench.metrics.clustered import korn_graubard
 
-__all__ = ["column", "decided", "percents", "pools", "share", "share_columns"]
+__all__ = ["column", "decided", "flown_of", "percents", "pools", "share", "share_columns"]
 
 _POOLED = {"scenario": "scenarios", "manoeuvre": "manoeuvres", "point": "points", "level": "levels"}
 
@@ -42,6 +42,12 @@ def percents(name: str, value: float | None, low: float | None, high: float | No
     """A share and its interval as percents under their names."""
     ends = {"": value, "_low": low, "_high": high}
     return {f"{name}{end}_percent": None if each is None else 100.0 * each for end, each in ends.items()}
+
+
+def flown_of(rows: pd.DataFrame) -> pd.DataFrame:
+    """Rows with status ok; the rows themselves, not a copy, where all are."""
+    ok = np.asarray(rows["status"] == "ok", dtype=bool)
+    return rows if ok.all() else rows[ok]
 
 
 def decided(flown: pd.DataFrame) -> npt.NDArray[np.bool_]:

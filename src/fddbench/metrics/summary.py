@@ -11,7 +11,7 @@ import pyarrow as pa
 from fddbench.interfaces import Floats
 from fddbench.metrics import distinct
 from fddbench.metrics.alarms import alarm_columns, of_flights
-from fddbench.metrics.shares import column, decided, pools, share, share_columns
+from fddbench.metrics.shares import column, decided, flown_of, pools, share, share_columns
 
 __all__ = ["COUNTED", "NEEDS", "SUMMARY", "summarize"]
 
@@ -108,7 +108,7 @@ def summarize(rows: pd.DataFrame, *, in_sample: Collection[str] = ()) -> pd.Data
 
 def _line(group: pd.DataFrame) -> dict[str, Value]:
     infeasible = int(np.sum(np.asarray(group["status"] == "infeasible", dtype=bool)))
-    flown = group[np.asarray(group["status"] == "ok", dtype=bool)]
+    flown = flown_of(group)
     healthy = bool(np.all(_numbers(group, "n_faulty") == 0))
     counts: dict[str, Value] = {
         "healthy": healthy,

@@ -1,13 +1,12 @@
 """Reads the tables of a folder of results, by its manifest."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 import pyarrow as pa
 import pyarrow.compute as pc
-import pyarrow.parquet as pq
 
 from fddbench.errors import PartialResultsWarning, ResultsError, warn
 from fddbench.results.folder import provenance_of
@@ -16,13 +15,13 @@ from fddbench.results.schema import CASE, EVENTS, rows_schema
 from fddbench.results.shards import open_table, read_columns
 from fddbench.results.whole import holdings
 
-__all__ = ["load", "load_events", "named", "read_events", "read_rows"]
+__all__ = ["load", "load_events", "named", "read_events", "read_in_parts", "read_rows"]
 
-Opened = tuple[Path, pq.ParquetFile]
-
-_AT_ONCE = 3  # columns
+_MANY = 50_000  # rows: about 10 MB of what a summary needs
 _ADDRESS = ("scenario", "point", "level", "run")
 """Columns that name a flight; ``case``, made of them when rows are read, is their text: jam_a/3/0/17."""
+_KEYS = (*_ADDRESS, "detector", "event")
+"""Columns that sort a table that has them."""
 
 
 def load(folder: str | Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
@@ -71,10 +70,22 @@ def read_rows(folder: Path, columns: Sequence[str] | None = None) -> pd.DataFram
     ResultsError
         As `load`.
     """
-    opened = _opened(folder, "rows", rows_schema(()))
-    if not opened:
-        raise ResultsError(f"{folder} holds no rows yet; run the campaign first")
-    return _sorted(opened, folder, opened[0][1].schema_arrow, columns)
+    return _sorted(folder, "rows", columns)
+
+
+def read_in_parts(folder: Path, columns: Sequence[str]) -> Iterator[pd.DataFrame]:
+    """Rows as of `read_rows`: all at once, or where they are many those of one detector after the other.
+
+    Raises
+    ------
+    ResultsError
+        As `load`.
+    """
+    if sum(sum(shard.statuses.values()) for shard in shards(folder)) <= _MANY:
+        yield _sorted(folder, "rows", columns)
+        return
+    for detector in provenance_of(folder)["designs_sha256"]:
+        yield _sorted(folder, "rows", columns, detector)
 
 
 def read_events(folder: Path) -> pd.DataFrame:
@@ -85,7 +96,7 @@ def read_events(folder: Path) -> pd.DataFrame:
     ResultsError
         As `load`.
     """
-    return _sorted(_opened(folder, "events", EVENTS), folder, EVENTS)
+    return _sorted(folder, "events")
 
 
 def named(table: pa.Table) -> pa.Table:
@@ -103,10 +114,74 @@ def _warn(folder: Path) -> None:
         )
 
 
-def _opened(folder: Path, which: str, schema: pa.Schema) -> list[Opened]:
-    """Tables of all shards that have one, ready to be read."""
+def _sorted(
+    folder: Path, which: str, columns: Sequence[str] | None = None, detector: str | None = None
+) -> pd.DataFrame:
+    """Table sorted by scenario, point, level, run, detector and event, of one detector or of all."""
+    wanted = None if columns is None else sorted({*columns, *_ADDRESS} - {CASE.name})
+    table = _read(folder, which, wanted, detector)
+    names = table.column_names if wanted is None else wanted
+    left = dict(zip(table.column_names, table.columns, strict=True))
+    fields = {field.name: field for field in table.schema}
+    del table
+    places = _places(folder, {name: left[name] for name in _KEYS if name in left})
+    # column by column, each released when it is in order, so that no two tables are in memory
+    ordered = [left.pop(name).take(places) for name in names]
+    in_order = pa.table(ordered, schema=pa.schema([fields[name] for name in names]))
+    if columns is None or CASE.name in columns:
+        in_order = named(in_order)
+    chosen = in_order if columns is None else in_order.select(list(columns))
+    frame: pd.DataFrame = chosen.to_pandas(types_mapper=pd.ArrowDtype)
+    frame.attrs["columns"] = {field.name: (field.metadata or {}).get(b"about", b"").decode() for field in chosen.schema}
+    return frame
+
+
+def _places(folder: Path, keys: Mapping[str, pa.ChunkedArray]) -> pa.Array:
+    """Places of the rows in order: scenarios and detectors as the campaign has them."""
+    provenance, by = provenance_of(folder), dict(keys)
+    for name, listed in (("scenario", "flights"), ("detector", "designs_sha256")):
+        order: Any = provenance.get(listed) or pc.unique(keys[name]).to_pylist()
+        by[name] = pc.index_in(keys[name], value_set=pa.array(list(order), pa.string()))
+    return pc.sort_indices(pa.table(by), sort_keys=[(name, "ascending") for name in by])
+
+
+def _read(folder: Path, which: str, wanted: Sequence[str] | None, detector: str | None) -> pa.Table:
+    """Columns of all shards, those that sort among them, one shard after the other; of one detector or of all.
+
+    Raises
+    ------
+    ResultsError
+        As `load`, and there are no rows yet.
+    """
+    schema = {"rows": rows_schema(()), "events": EVENTS}[which]
+    tables, first = [], None
+    for path, sha256, fingerprint in _files(folder, which):
+        file = open_table(path, sha256, schema=schema, fingerprint=fingerprint)
+        first = first or file.schema_arrow
+        if set(file.schema_arrow.names) != set(first.names):
+            raise _different(folder)
+        names = first.names if wanted is None else [*dict.fromkeys((*wanted, *_keys_in(first)))]
+        table = read_columns(path, file, names).replace_schema_metadata(None)
+        tables.append(table if detector is None else table.filter(pc.equal(table["detector"], detector)))
+    if not tables and which == "rows":
+        raise ResultsError(f"{folder} holds no rows yet; run the campaign first")
+    try:
+        return pa.concat_tables(tables or [EVENTS.empty_table()])
+    except pa.ArrowException as error:
+        raise _different(folder) from error
+
+
+def _keys_in(schema: pa.Schema) -> list[str]:
+    return [name for name in _KEYS if name in schema.names]
+
+
+def _different(folder: Path) -> ResultsError:
+    return ResultsError(f"the shards of {folder} have different columns; fly the campaign anew with --fresh")
+
+
+def _files(folder: Path, which: str) -> Iterator[tuple[Path, str, str]]:
+    """File, sha256 and fingerprint of each shard that has such a table."""
     listed = provenance_of(folder)["fingerprints"]
-    found = []
     for shard in shards(folder):
         if shard.fingerprint not in listed:
             raise ResultsError(
@@ -116,46 +191,4 @@ def _opened(folder: Path, which: str, schema: pa.Schema) -> list[Opened]:
         files = {"rows": (shard.rows, shard.rows_sha256), "events": (shard.events, shard.events_sha256)}
         name, sha256 = files[which]
         if name is not None and sha256 is not None:
-            path = folder / name
-            found.append((path, open_table(path, sha256, schema=schema, fingerprint=shard.fingerprint)))
-    return found
-
-
-def _sorted(
-    opened: Sequence[Opened], folder: Path, schema: pa.Schema, columns: Sequence[str] | None = None
-) -> pd.DataFrame:
-    """Sorted by scenario, point, level, run, detector and event; read a few columns at a time, for each is held twice."""
-    if any(set(each.schema_arrow.names) != set(schema.names) for _, each in opened):
-        raise ResultsError(f"the shards of {folder} have different columns; fly the campaign anew with --fresh")
-    names = schema.names if columns is None else sorted({*columns, *_ADDRESS} - {CASE.name})
-    keys = _read(opened, folder, schema, [name for name in (*_ADDRESS, "detector", "event") if name in schema.names])
-    provenance = provenance_of(folder)
-    for name, listed in (("scenario", "flights"), ("detector", "designs_sha256")):
-        order: Any = provenance.get(listed) or pc.unique(keys[name]).to_pylist()
-        place = pc.index_in(keys[name], value_set=pa.array(list(order), pa.string()))
-        keys = keys.set_column(keys.column_names.index(name), name, place)
-    places = pc.sort_indices(keys, sort_keys=[(name, "ascending") for name in keys.column_names])
-    del keys
-    parts = [
-        _read(opened, folder, schema, names[j : j + _AT_ONCE]).take(places) for j in range(0, len(names), _AT_ONCE)
-    ]
-    fields = [field for part in parts for field in part.schema]
-    in_order = pa.table([column for part in parts for column in part.columns], schema=pa.schema(fields))
-    if columns is None or CASE.name in columns:
-        in_order = named(in_order)
-    chosen = in_order if columns is None else in_order.select(list(columns))
-    frame: pd.DataFrame = chosen.to_pandas(types_mapper=pd.ArrowDtype)
-    frame.attrs["columns"] = {field.name: (field.metadata or {}).get(b"about", b"").decode() for field in chosen.schema}
-    return frame
-
-
-def _read(opened: Sequence[Opened], folder: Path, schema: pa.Schema, names: Sequence[str]) -> pa.Table:
-    """Some columns of all shards, one after the other."""
-    empty = pa.schema([schema.field(name) for name in names if name in schema.names]).empty_table()
-    tables = [read_columns(path, each, names).replace_schema_metadata(None) for path, each in opened]
-    try:
-        return pa.concat_tables(tables or [empty])
-    except pa.ArrowException as error:
-        raise ResultsError(
-            f"the shards of {folder} have different columns; fly the campaign anew with --fresh"
-        ) from error
+            yield folder / name, sha256, shard.fingerprint

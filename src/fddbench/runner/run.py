@@ -3,6 +3,7 @@
 import time
 from collections import Counter
 from collections.abc import Callable, Generator
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -21,7 +22,7 @@ from fddbench.runner.fingerprint import fingerprint_of, provenance_for
 from fddbench.runner.flight import Flyer
 from fddbench.runner.pool import fly_all
 from fddbench.runner.rehearsal import rehearsed
-from fddbench.runner.work import flyer_of
+from fddbench.runner.work import lent
 
 __all__ = ["Progress", "RunReport", "run_campaign"]
 
@@ -118,9 +119,8 @@ def run_campaign(
         chunks = [spans(part) for part in cut(plan, left, size=size, jobs=jobs)]
         work = (str(folder), fingerprint.sha256, backend, tuple(flyer.given_up.items()))
         threads = flyer.compiled and not flyer.opaque
-        if len(left) and threads:
-            flyer_of(*work)
-        interrupted = _fly(folder, fly_all(work, chunks, jobs=jobs, threads=threads), told)
+        with lent(flyer, *work) if len(left) and threads else nullcontext():
+            interrupted = _fly(folder, fly_all(work, chunks, jobs=jobs, threads=threads), told)
     return RunReport(
         folder=folder,
         flights=told.flown,

@@ -1,5 +1,7 @@
 """What a worker does: read the frozen campaign, fly a chunk, write its shard, say what is in it."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
 from threading import Lock
@@ -22,17 +24,32 @@ from fddbench.runner.fingerprint import frozen_to_fly
 from fddbench.runner.flight import Flyer, Outcome
 from fddbench.runner.given_up import GivenUps
 
-__all__ = ["fly_and_write", "flyer_of", "rows_and_events", "rows_of"]
+__all__ = ["fly_and_write", "flyer_of", "lent", "rows_and_events", "rows_of"]
 
 Columns = dict[str, pa.Array]
 Cases = npt.NDArray[np.int64]
 
 _SHARED = ("scenario", "point", "level", "run", "detector", "status", "reason")
 _making = Lock()
+_lent: dict[tuple[str, str, str, GivenUps], Flyer] = {}
+
+
+@contextmanager
+def lent(flyer: Flyer, folder: str, fingerprint: str, backend: str, given_up: GivenUps = ()) -> Iterator[None]:
+    """Fly a frozen campaign in the threads of this process with what flies it already, compiled now; forgotten afterwards."""
+    flyer.prepare()
+    _lent[folder, fingerprint, backend, given_up] = flyer
+    try:
+        yield
+    finally:
+        del _lent[folder, fingerprint, backend, given_up]
 
 
 def flyer_of(folder: str, fingerprint: str, backend: str, given_up: GivenUps = ()) -> Flyer:
-    """What flies a frozen campaign, made and compiled once per process."""
+    """What flies a frozen campaign, lent or made and compiled once per process."""
+    known = _lent.get((folder, fingerprint, backend, given_up))
+    if known is not None:
+        return known
     with _making:
         return _flyer(folder, fingerprint, backend, given_up)
 

@@ -1,5 +1,7 @@
 """What the published benchmark does not have: more sensors, surfaces that fail, a voter with a memory."""
 
+import subprocess
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -81,3 +83,14 @@ def test_a_voter_with_a_memory_flies(bench):
     now = bench.fly(loop, 1, 0.02, faults=[bias])
     assert now["r_voted_deg_s"][0, 0] == 0.5
     assert now["r_voted_deg_s"][1, 0] == pytest.approx(0.75, abs=0.01)
+
+
+def test_a_plant_that_is_not_flown_is_not_imported():
+    """A small campaign would spend more on it than on itself."""
+    code = (
+        "import sys; from fddbench.benchmarks.yaw_rate import YawRate; "
+        "plants = YawRate.choices['plant'].options; assert list(plants) == ['lateral_lpv', 'transport_6dof']; "
+        "plants['lateral_lpv']; print(*(name for name in sys.modules if 'transport' in name))"
+    )
+    told = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    assert not set(told.stdout.split()) - {"fddbench.flight.transport", "fddbench.flight.transport.shipped"}

@@ -8,6 +8,7 @@ import yaml
 from fddbench.errors import FddbenchError
 from fddbench.flight.transport.aircraft import Aircraft
 from fddbench.flight.transport.reading import SHIPPED, read_aircraft, twin_jet
+from fddbench.flight.transport.shipped import shipped_numbers
 
 DATA = yaml.safe_load(SHIPPED.read_text(encoding="utf-8"))
 
@@ -105,3 +106,10 @@ def test_something_else_is_no_aircraft(tmp_path):
     (tmp_path / "mine.yaml").write_text("a: [", encoding="utf-8")
     with pytest.raises(FddbenchError, match="cannot be read as the YAML of an aircraft"):
         read_aircraft(tmp_path / "mine.yaml")
+
+
+@pytest.mark.parametrize("part", ["geometry", "drag", "thrust", "limits"])
+def test_numbers_read_without_the_model_are_those_of_the_model(part):
+    """What the limits of flight are computed from."""
+    judged = getattr(twin_jet(), part).model_dump()
+    assert vars(getattr(shipped_numbers(), part)) == judged

@@ -1,18 +1,30 @@
 """The yaw-rate benchmark as campaigns see it: what there is to choose."""
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 from fddbench.benchmarks.yaw_rate.plant import PLANT_NEEDS, YawRatePlant
-from fddbench.benchmarks.yaw_rate.plants.lateral_lpv import LateralLpvPlant
-from fddbench.benchmarks.yaw_rate.plants.transport_6dof import Transport6Dof
 from fddbench.benchmarks.yaw_rate.sensors import PRESETS
 from fddbench.benchmarks.yaw_rate.winds import WINDS
 from fddbench.interfaces import Choice, Loop, Options
+from fddbench.kinds import Named
 from fddbench.voting.closest_two import ClosestTwo
 from fddbench.voting.median import Median
 
 __all__ = ["YawRate"]
+
+_PLANTS = Named(
+    {
+        "lateral_lpv": "fddbench.benchmarks.yaw_rate.plants.lateral_lpv:LateralLpvPlant",
+        "transport_6dof": "fddbench.benchmarks.yaw_rate.plants.transport_6dof:Transport6Dof",
+    }
+)
+
+
+def _of_file(path: Path) -> Any:
+    """Plant of a file: an aircraft with six degrees of freedom."""
+    return _PLANTS["transport_6dof"].of_file(path)
 
 
 class YawRate:
@@ -28,10 +40,10 @@ class YawRate:
     choices: Mapping[str, Choice] = {
         "plant": Choice(
             about="what flies",
-            options={"lateral_lpv": LateralLpvPlant, "transport_6dof": Transport6Dof},
+            options=_PLANTS,
             family="plant",
             needs=PLANT_NEEDS,
-            reads=Transport6Dof.of_file,
+            reads=_of_file,
         ),
         "voter": Choice(
             about="how the sensors are voted",

@@ -9,10 +9,10 @@ from pydantic import ValidationError
 
 from fddbench.errors import FddbenchError, did_you_mean
 from fddbench.flight.transport.aircraft import Aircraft
+from fddbench.flight.transport.shipped import SHIPPED
 
 __all__ = ["SHIPPED", "read_aircraft", "read_data", "twin_jet"]
 
-SHIPPED = Path(__file__).parent / "data" / "twin_jet.yaml"
 _SLIPS = {
     "_m": ("feet", 3.280839895013123),
     "_m2": ("square feet", 10.763910416709722),

@@ -19,7 +19,7 @@ from fddbench.benchmarks.yaw_rate.transport.seeing import (
     truth,
 )
 from fddbench.benchmarks.yaw_rate.transport.sensors import N_VOTED, TransportSensors
-from fddbench.benchmarks.yaw_rate.winds import in_six_components
+from fddbench.benchmarks.yaw_rate.transport.winds import in_six_components
 from fddbench.blocks.block import Part
 from fddbench.blocks.drawn import Draws
 from fddbench.blocks.layout import ROW, Layout, Nothing, Row, record
