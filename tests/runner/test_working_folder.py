@@ -44,6 +44,17 @@ def test_plugins_may_be_called_as_modules_of_python_are(tmp_path):
     assert os.environ.get("PYTHONSAFEPATH") is None
 
 
+def test_a_notebook_may_go_to_another_folder_between_two_runs(tmp_path, monkeypatch):
+    """Worker processes of the first run stay in its folder."""
+    for name in ("first", "second"):
+        (tmp_path / name).mkdir()
+        monkeypatch.chdir(tmp_path / name)
+        Path("a.yaml").write_text(TEXT.format(detectors="voting_monitor"))
+        options = ["--backend", "numpy", "--jobs", "2", "--out", "out", "--quiet"]
+        assert main(["run", "a.yaml", *options]) == 0
+    assert len(load(tmp_path / "second" / "out")) == len(load(tmp_path / "first" / "out")) == 40
+
+
 def test_no_cache_without_a_home(monkeypatch):
     def home():
         raise RuntimeError("Could not determine home directory.")

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 __all__ = ["detection_curve", "detection_curves", "envelope", "label"]
 
+_WIDTH_IN = 11.4
+
 
 def label(name: str) -> str:
     """Axis label of a signal or parameter, its unit taken from the name.
@@ -73,7 +75,13 @@ def detection_curves(rows: pd.DataFrame) -> str | None:
             axes.set_visible(False)
         _detector_legend(figure, order)
 
-    return to_png(draw, width_in=11.4, height_in=0.45 + 2.15 * n_rows)
+    lines = -(-(len(order) + 1) // _per_row(order))
+    return to_png(draw, width_in=_WIDTH_IN, height_in=0.2 + 0.25 * lines + 2.15 * n_rows)
+
+
+def _per_row(order: list[str]) -> int:
+    """How many names fit into a row of a legend."""
+    return max(1, min(len(order) + 1, int(_WIDTH_IN / (0.5 + 0.078 * max(map(len, order))))))
 
 
 def _detector_legend(figure: "Figure", order: list[str]) -> None:
@@ -81,7 +89,7 @@ def _detector_legend(figure: "Figure", order: list[str]) -> None:
 
     lines = [Line2D([], [], color=colour(i), ls=dashes(i), lw=2.0) for i in range(len(order))]
     limit = Line2D([], [], color=WARNING, lw=1.0, ls=(0, (4, 2)))
-    figure.legend([*lines, limit], [*order, "requirement"], loc="outside upper left", ncols=len(order) + 1)
+    figure.legend([*lines, limit], [*order, "requirement"], loc="outside upper left", ncols=_per_row(order))
 
 
 def _curve_panel(axes: "Axes", scenario: str, flown: pd.DataFrame, order: list[str]) -> None:
@@ -145,7 +153,7 @@ def envelope(rows: pd.DataFrame, axes: Sequence[tuple[str, str]] = ()) -> str | 
             panel.set_visible(False)
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper left", ncols=3)
 
-    return to_png(draw, width_in=11.4, height_in=0.3 + 3.3 * n_rows)
+    return to_png(draw, width_in=_WIDTH_IN, height_in=0.3 + 3.3 * n_rows)
 
 
 def _fates(rows: pd.DataFrame, cases: "pd.Series[Any]") -> Any:

@@ -117,7 +117,8 @@ def run_campaign(
         told.tell()
         size = chunk or _chunk(flyer)
         chunks = [spans(part) for part in cut(plan, left, size=size, jobs=jobs)]
-        work = (str(folder), fingerprint.sha256, backend, tuple(flyer.given_up.items()))
+        # workers of an earlier run may still be there, in the working folder of that time
+        work = (str(folder.absolute()), fingerprint.sha256, backend, tuple(flyer.given_up.items()))
         threads = flyer.compiled and not flyer.opaque
         with lent(flyer, *work) if len(left) and threads else nullcontext():
             interrupted = _fly(folder, fly_all(work, chunks, jobs=jobs, threads=threads), told)

@@ -35,7 +35,7 @@ def _fly(plant, law, filters):
         seen = fddbench.signals(campaign, scenario)
         for name in filters:
             own = seen.detectors[name]
-            estimates[scenario, name] = np.hstack([own["estimate_elevator"], own["estimate_thrust"]])
+            estimates[scenario, name] = np.hstack([own["estimate_elevator_deg"], own["estimate_thrust_n"]])
         pairs = (("elevator_true_deg", "elevator_deg"), ("thrust_true_n", "thrust_n"))
         added[scenario] = np.hstack([seen.signals[true] - seen.signals[read] for true, read in pairs])
     return seen.time_s, estimates, added
@@ -110,9 +110,10 @@ def test_what_is_not_known_of_the_aircraft_biases_the_estimates(change, site, sh
     scenario, begin_s, end_s = (("elevator", 50.0, 75.0), ("thrust", 65.0, 115.0))[site]
     campaign = read_campaign(path, [f"dispersions={{grid: {{{key}: [{value}]}}}}", f"detectors=[{', '.join(names)}]"])
     seen = fddbench.signals(campaign, scenario)
-    true, read, estimate = (("elevator_true_deg", "elevator_deg"), ("thrust_true_n", "thrust_n"))[site] + (
-        f"estimate_{scenario}",
-    )
+    true, read, estimate = (
+        ("elevator_true_deg", "elevator_deg", "estimate_elevator_deg"),
+        ("thrust_true_n", "thrust_n", "estimate_thrust_n"),
+    )[site]
     counted = (seen.time_s >= begin_s) & (seen.time_s < end_s)
     size = (seen.signals[true] - seen.signals[read])[counted].mean()
     found = [seen.detectors[name][estimate][counted].mean() / size - 1.0 for name in names]
@@ -131,7 +132,7 @@ def test_a_trim_change_of_300_s_looks_like_a_fault_unless_drag_or_offset_are_tak
     ]
     campaign = read_campaign(gallery.folder("campaigns") / "b747_coefficients.yaml", changes)
     seen = fddbench.signals(campaign, "healthy").detectors
-    peaks_n = [np.abs(seen[name]["estimate_thrust"]).max() for name in names]
+    peaks_n = [np.abs(seen[name]["estimate_thrust_n"]).max() for name in names]
     assert min(peaks_n[:2]) > 4000.0
     assert peaks_n[2] < 1500.0
     assert peaks_n[3] < 100.0

@@ -48,7 +48,7 @@ def test_it_flies_as_the_shipped_one_and_travels(folder):
     assert (folder / "results" / "detectors" / "mine.py").read_text() == MINE
     assert "detectors/mine.py" in Fingerprint.of(provenance_of(folder / "results")).files
     (folder / "detectors" / "mine.py").unlink()  # replay reads what has travelled
-    assert fddbench.signals(folder / "results", "healthy").detectors["own"]["estimate_elevator"].shape == (701, 1)
+    assert fddbench.signals(folder / "results", "healthy").detectors["own"]["estimate_elevator_deg"].shape == (701, 1)
 
 
 @pytest.mark.parametrize(

@@ -66,8 +66,10 @@ class LpvFilter:
         self.watches = tuple(entry.site for entry in gains.filters)
         self.thresholds = column(gains.thresholds)
         self.confirm_samples = samples("confirm_s", gains.confirm_s, bus.sample_s)
-        self.evaluated = tuple(f"estimate_{name}" for name in self.watches)
-        self.recorded = tuple(f"{what}_{name}" for name in self.watches for what in ("estimate", "threshold"))
+        suffix = {site.name: site.unit.suffix for site in bus.sites}
+        self.evaluated = tuple(f"estimate_{name}{suffix[name]}" for name in self.watches)
+        self.shown_thresholds = tuple(f"threshold_{name}{suffix[name]}" for name in self.watches)
+        self.recorded = tuple(name for pair in zip(self.evaluated, self.shown_thresholds, strict=True) for name in pair)
         n, n_rho = len(self.watches), 0 if scheduling is None else len(scheduling.parameters)
         self.states = Layout(
             LpvFilterState(
@@ -112,8 +114,8 @@ class LpvFilter:
         held = held_samples(x.held_samples, np.abs(estimate) > self.thresholds)
         declared = np.maximum(x.declared, np.where(held - 1.0 >= self.confirm_samples, 1.0, 0.0))
         shown = {name: estimate[i] for i, name in enumerate(self.evaluated)}
-        for i, name in enumerate(self.watches):
-            shown[f"threshold_{name}"] = np.zeros_like(estimate[i]) + self.thresholds[i]
+        for i, name in enumerate(self.shown_thresholds):
+            shown[name] = np.zeros_like(estimate[i]) + self.thresholds[i]
         after = LpvFilterState(
             w=w,
             smoothed=smoothed,
