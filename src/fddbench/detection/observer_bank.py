@@ -1,0 +1,92 @@
+"""A lateral observer for every yaw-rate sensor: the hypothesis whose observer is surprised least wins."""
+
+from types import SimpleNamespace
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import Field
+
+from fddbench.blocks.block import NO_DRAWS, NOTHING
+from fddbench.blocks.drawn import Draws
+from fddbench.blocks.functions import exp
+from fddbench.blocks.layout import Layout, Nothing, Rows, record
+from fddbench.blocks.linear import product
+from fddbench.detection.gust_filter import LATERAL_SIGNALS, GustFilter, GustFilterGains, GustFilterState, lateral
+from fddbench.detection.nearest import Nearest, NearestGains, NearestState
+from fddbench.interfaces import Bus, Verdict
+from fddbench.units import RAD_PER_DEG
+
+__all__ = ["ObserverBank", "ObserverBankGains"]
+
+
+class ObserverBankGains(NearestGains):
+    """Numbers of the decision, and of the observers.
+
+    Attributes
+    ----------
+    filter : GustFilterGains
+        Of each observer; made by ``fddbench design``.
+    memory_s : float
+        Lag on the residuals [s].
+    """
+
+    filter: GustFilterGains
+    memory_s: Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
+
+
+@record
+class ObserverBankState:
+    """The observers; lagged residuals [-]; the decision."""
+
+    observers: tuple[GustFilterState, ...]
+    residual: Rows
+    decision: NearestState
+
+
+class ObserverBank:
+    """doc"""
+
+    about = "lateral observers, one per yaw-rate sensor; the least surprised one is believed"
+    Gains = ObserverBankGains
+    constants: Layout[Any] = NOTHING
+    draws: Draws[Any] = NO_DRAWS
+
+    def __init__(self, gains: ObserverBankGains, bus: Bus) -> None:
+        self.watches = bus.redundant("r_deg_s", least=3)
+        n = len(self.watches)
+        self.recorded = tuple(f"residual_{i + 1}" for i in range(n))
+        self.observer, self.decision = GustFilter(gains.filter, bus), Nearest.of(gains, bus, n)
+        self.share = float(1.0 - exp(np.array(-bus.sample_s / gains.memory_s)))
+        self.states = Layout(
+            ObserverBankState(
+                observers=(self.observer.states.shape,) * n, residual=n, decision=self.decision.states.shape
+            )
+        )
+
+    @classmethod
+    def from_design(cls, gains: ObserverBankGains, bus: Bus) -> "ObserverBank":
+        """Detector for a bus with the lateral signals and three or more yaw rates."""
+        bus.require(*LATERAL_SIGNALS)
+        return cls(gains, bus)
+
+    def start(self, c: Nothing) -> ObserverBankState:
+        """In trim."""
+        observers = tuple(self.observer.start(c) for _ in self.watches)
+        return ObserverBankState(observers=observers, residual=0.0, decision=self.decision.start(c))
+
+    def step(
+        self, x: ObserverBankState, c: Nothing, n: Nothing, measured: SimpleNamespace
+    ) -> tuple[ObserverBankState, Verdict]:
+        """Verdict after one sample."""
+        now, r_deg_s = lateral(measured), measured.r_deg_s
+        observers, surprises = [], []
+        for i, observer in enumerate(x.observers):
+            e = self.observer.innovation(observer, now, r_deg_s[i] * RAD_PER_DEG)
+            after, _ = self.observer.step(observer, c, n, now, e, np.ones_like(e[0]))
+            observers.append(after)
+            surprises.append(np.abs(product(self.observer.W, e)[3]))
+        residual = x.residual + self.share * (np.stack(surprises) - x.residual)
+        decided, decision = self.decision.step(x.decision, c, n, r_deg_s, residual)
+        shown = {name: residual[i] for i, name in enumerate(self.recorded)}
+        state = ObserverBankState(observers=tuple(observers), residual=residual, decision=decided)
+        return state, Verdict(decision.declared, decision.residual, signals=shown)
