@@ -11,7 +11,7 @@ from fddbench.errors import FddbenchError
 if TYPE_CHECKING:
     from fddbench.runner.assembly import Assembly
 
-__all__ = ["check", "cost", "init", "list_", "report", "run", "schema", "scores"]
+__all__ = ["check", "cost", "finding", "init", "list_", "report", "run", "schema", "scores"]
 
 
 def run(args: argparse.Namespace) -> int:
@@ -102,6 +102,17 @@ def scores(args: argparse.Namespace) -> int:
     return 0
 
 
+def finding(args: argparse.Namespace) -> int:
+    """Print what a campaign found: its question and at most ten lines of Markdown, written from its rows.
+
+    A folder that does not hold all flights of its campaign is refused.
+    """
+    from fddbench.api.findings import finding as found
+
+    print(found(args.folder), end="")
+    return 0
+
+
 def cost(args: argparse.Namespace) -> int:
     """Count what a step of a detector costs: the load on a flight computer.
 
@@ -110,13 +121,27 @@ def cost(args: argparse.Namespace) -> int:
     """
     from fddbench.runner.load import detector_load, in_words
 
-    assembly = _one_detector(args.detector, args.campaign)
+    assembly = _assembly_with(args.detector, args.campaign)
     load = detector_load(assembly.detectors[args.detector], assembly.loop.bus)
     print(f"{args.detector}, at {assembly.loop.bus.sample_s} s: {in_words(load)}")
     if load.cost is not None:
         for name, number in load.cost.operations.items():
             print(f"  {name:<12}{number:>6}")
     return 0
+
+
+def _assembly_with(detector: str, campaign: Path | None) -> "Assembly":
+    """Assembly of a campaign with a design, or with a variant of one that the campaign sweeps."""
+    from dataclasses import replace
+
+    from fddbench.campaign.load import read_campaign
+    from fddbench.runner.assembling import assemble
+
+    own = read_campaign(campaign) if campaign else None
+    swept = [design for design in own.designs if design.name == detector and design.swept] if own else []
+    if own is None or not swept:
+        return _one_detector(detector, campaign)
+    return assemble(replace(own, designs=tuple(swept), reconfigure=""))
 
 
 def _one_detector(design: str, campaign: Path | None) -> "Assembly":
