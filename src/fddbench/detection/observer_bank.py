@@ -11,8 +11,8 @@ from fddbench.blocks.drawn import Draws
 from fddbench.blocks.functions import exp
 from fddbench.blocks.layout import Layout, Nothing, Rows, record
 from fddbench.blocks.linear import product
+from fddbench.detection.decision import Nearest, NearestGains, NearestState
 from fddbench.detection.gust_filter import LATERAL_SIGNALS, GustFilter, GustFilterGains, GustFilterState, lateral
-from fddbench.detection.nearest import Nearest, NearestGains, NearestState
 from fddbench.interfaces import Bus, Verdict
 from fddbench.units import RAD_PER_DEG
 
@@ -44,7 +44,31 @@ class ObserverBankState:
 
 
 class ObserverBank:
-    """doc"""
+    """Believes the sensor whose own observer is surprised least, and accuses whoever differs from it, one or two.
+
+    One hypothesis a sensor and a pair, of three observers: the one of sensor k flies on k alone, so "k is healthy" covers
+    "the others are a faulty pair" and, where one of them agrees with k, "the third is faulty". An observer on the mean of two
+    sensors would be the mean of their observers, for all is linear.
+
+    Model assumed: that of `KalmanGust`. A residual is the lagged size of what phi, V_y and p did not let expect of r. Since
+    each observer follows its own sensor, only what contradicts the motion remains: a constant offset is found by its start
+    and, with less force, by the turn and sideslip that it would mean. Blind to faults below the gate. Knobs:
+    `recipe.filter.r_deg_s`, how little the observers follow their sensors, trades jumps for slow faults; `memory_s` quick
+    decisions for sure ones. Cost: 716 operations a sample.
+
+    References
+    ----------
+    Clark (1978), Instrument fault detection, IEEE Transactions on Aerospace and Electronic Systems 14(3), 456-465; Frank
+    (1990), Fault diagnosis in dynamic systems using analytical and knowledge-based redundancy, Automatica 26(3), 459-474.
+
+    Examples
+    --------
+    >>> import fddbench
+    >>> smoke = fddbench.read("smoke", ["detectors=[observer_bank]", "duration_s=2.5"])
+    >>> flight = fddbench.signals(smoke, "jam_b", ["jam_b/0/0/0"])  # two sensors from 2 s on
+    >>> flight.detectors["observer_bank"]["n_declared"][[200, 215], 0]
+    array([0., 2.])
+    """
 
     about = "lateral observers, one per yaw-rate sensor; the least surprised one is believed"
     Gains = ObserverBankGains

@@ -4,7 +4,7 @@ from typing import Annotated, Any
 
 import numpy as np
 from pydantic import Field
-from scipy.linalg import expm, solve_discrete_are
+from scipy.linalg import solve_discrete_are
 
 from fddbench.campaign.rules.model import Strict
 from fddbench.design.recipes.recipe import Made, Recipe, short
@@ -81,14 +81,14 @@ class GustFilterEntry(Strict):
         """Slowest poles with the yaw rate and coasting, at the worst vertex; size of the innovations."""
         coasting = np.eye(6) - K @ C[:3]
         after = {"filter": (np.eye(6) - np.outer(k_r, C[3])) @ coasting, "coasting": coasting}
-        radius = {name: 0.0 for name in after}
+        radius = dict.fromkeys(after, 0.0)
         for rho in lateral_lpv().vertices().T:
             A = np.eye(6) + self.sample_s * _model(rho, gust_time_s)
             for name, M in after.items():
                 radius[name] = max(radius[name], float(np.abs(np.linalg.eigvals(A @ M)).max()))
         if radius["filter"] >= 1.0:
             raise DesignError(
-                f"recipe.filter: at a vertex of the box the filter has spectral radius {radius['filter']:.5f}, must be below 1: "
+                f"recipe.filter: spectral radius {radius['filter']:.5f} at a vertex of the box, must be below 1: "
                 "steady gains of the centre do not reach that far. Take less noise off the sensors"
             )
         sizes = np.sqrt(np.diag(S)) / np.array([RAD_PER_DEG, RAD_PER_DEG * _V_M_S, RAD_PER_DEG, RAD_PER_DEG])

@@ -1,4 +1,4 @@
-"""The decision of the model-based detectors: the healthy sensor is the one that the model speaks for, whoever differs is not."""
+"""The choice among hypotheses: the healthy sensor is the one that the model speaks for, and whoever differs from it is not."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -72,8 +72,10 @@ class Decision:
 class Nearest:
     """Accuses the sensors that differ from the one nearest to the model, be it one or several; latches.
 
-    A declaration is taken anew only when more sensors stand accused than are declared, so one may become two, never back.
-    Nobody is accused while all sensors agree: a model error alone makes no alarm.
+    Beside `Miscompare` it chooses among whole hypotheses: one sensor must stand long, for the model has to be right all that
+    time, several must be told at once; and while the nearest is hardly nearer than the accused it waits. A declaration is for
+    good: more may be added to it, none is taken back. Nobody is accused while all sensors agree: a model error alone makes no
+    alarm.
     """
 
     constants: ClassVar[Layout[Any]] = NOTHING
@@ -132,15 +134,14 @@ class Nearest:
         best = -largest(-distance)
         least = -largest(np.where(accused > 0.0, -distance, -1e300))
         changed = total(np.abs(accused - x.accused))
+        # those declared once stay so: an accusation that lets one go is none
         acquitted = total(x.declared * (1.0 - accused))
         flag = (n_accused > 0.0) & (acquitted < 1.0) & (best <= self.clear_ratio * least)
         held = np.where(flag, np.where(changed > 0.0, 1.0, x.held_samples + 1.0), 0.0)
         ready = held - 1.0 >= np.where(n_accused >= 2.0, self.confirm_two, self.confirm_one)
         n_now = np.maximum(x.n_declared, np.where(ready & flag, n_accused, 0.0))
         declared = latch(x.declared, accused, n_before=x.n_declared, n_now=n_now)
-        after = NearestState(
-            apart_deg_s=apart, accused=accused, held_samples=held, n_declared=n_now, declared=declared
-        )
+        after = NearestState(apart_deg_s=apart, accused=accused, held_samples=held, n_declared=n_now, declared=declared)
         return after, Decision(declared=declared, differ=differ, residual=largest(apart) / self.gate_deg_s)
 
 
