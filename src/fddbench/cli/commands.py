@@ -11,7 +11,7 @@ from fddbench.errors import FddbenchError
 if TYPE_CHECKING:
     from fddbench.runner.assembly import Assembly
 
-__all__ = ["check", "cost", "init", "list_", "report", "run", "schema", "scores"]
+__all__ = ["check", "cost", "finding", "init", "list_", "report", "run", "schema", "scores"]
 
 
 def run(args: argparse.Namespace) -> int:
@@ -99,6 +99,17 @@ def scores(args: argparse.Namespace) -> int:
     rows, campaign = load(args.folder), frozen(args.folder)
     maps = detectable_of(rows, campaign)
     print(scores_text(rows, provenance_of(args.folder), campaign.in_sample, maps), end="")
+    return 0
+
+
+def finding(args: argparse.Namespace) -> int:
+    """Print what a campaign found: its question and at most ten lines of Markdown, written from its rows.
+
+    A folder that does not hold all flights of its campaign is refused.
+    """
+    from fddbench.api.findings import finding as found
+
+    print(found(args.folder), end="")
     return 0
 
 

@@ -49,6 +49,9 @@ def parser() -> argparse.ArgumentParser:
     scores = _add(subs, "scores", commands.scores)
     scores.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
 
+    finding = _add(subs, "finding", commands.finding)
+    finding.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+
     cost = _add(subs, "cost", commands.cost)
     cost.add_argument("detector", metavar="DETECTOR", help="name of a design")
     cost.add_argument(
