@@ -2,7 +2,6 @@
 
 import argparse
 import sys
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -159,38 +158,15 @@ def check(args: argparse.Namespace) -> int:
 
 
 def list_(args: argparse.Namespace) -> int:
-    """List what campaigns can name: benchmarks, faults, voters, detectors, shipped campaigns and designs."""
-    from fddbench import gallery, kinds
+    """List what campaigns can name: benchmarks, faults, voters, detectors, shipped campaigns and designs.
 
-    del args
-    for family in kinds.FAMILIES:
-        names = kinds.known(family)
-        if names:
-            print(f"{family}s")
-            _aligned({name: _about(family, name) for name in names})
-    for name in ("campaigns", "detectors"):
-        print("shipped campaigns" if name == "campaigns" else "shipped designs")
-        paths = sorted(gallery.folder(name).glob("*.yaml"))
-        _aligned({path.stem: path.read_text(encoding="utf-8").split("\n")[0].lstrip("# ") for path in paths})
+    The name of a benchmark shows all its names: plants, parameters, manoeuvres, fault sites, sensors, winds, signals, and the
+    designs that fit.
+    """
+    from fddbench.api.asking import ask
+
+    print(ask(args.subject))
     return 0
-
-
-def _aligned(about: Mapping[str, str]) -> None:
-    """Print names in a column as wide as the longest, and what they are beside them."""
-    width = max(map(len, about), default=0) + 2
-    for name, text in about.items():
-        print(f"  {name:<{width}}{text}")
-
-
-def _about(family: str, name: str) -> str:
-    """What a registered member says of itself; of one that cannot be imported, why."""
-    from fddbench import kinds
-
-    try:
-        kind = kinds.load(family, name)
-    except FddbenchError as error:
-        return f"(broken) {error}"
-    return str(getattr(kind, "about", "") or (kind.__doc__ or "").split("\n")[0])
 
 
 def init(args: argparse.Namespace) -> int:

@@ -70,7 +70,11 @@ def parser() -> argparse.ArgumentParser:
     _tune(_add(subs, "tune", designing.tune))
 
     _modes(_add(subs, "modes", aircraft.modes))
-    _add(subs, "list", commands.list_)
+    ask = _add(subs, "list", commands.list_)
+    ask.add_argument(
+        "subject", nargs="?", default="", metavar="SUBJECT",
+        help="name of a benchmark, or benchmarks, faults, voters, detectors, campaigns, designs (default: everything)",
+    )  # fmt: skip
     init = _add(subs, "init", commands.init)
     init.add_argument("folder", type=Path, nargs="?", default=Path(), metavar="DIR", help="where to (default: here)")
     _add(subs, "schema", commands.schema)
