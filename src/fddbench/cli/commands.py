@@ -170,21 +170,21 @@ def list_(args: argparse.Namespace) -> int:
 
 
 def init(args: argparse.Namespace) -> int:
-    """Copy the shipped campaigns and designs, to start from; what is there already is left alone."""
-    import shutil
+    """Write files to start from: a detector, benchmark, fault or campaign of your own, or copies of the shipped ones.
 
-    from fddbench import gallery
+    What is there already is left alone.
+    """
+    from fddbench.api.starting import STARTERS, copy_shipped, start
 
-    for name in ("campaigns", "detectors"):
-        target = args.folder / name
-        try:
-            target.mkdir(parents=True, exist_ok=True)
-            for path in sorted(gallery.folder(name).iterdir()):
-                if path.is_file() and not (target / path.name).exists():
-                    shutil.copyfile(path, target / path.name)
-                    print(target / path.name)
-        except OSError as error:
-            raise FddbenchError(f"cannot write into {target}: {error.strerror}; name another folder") from error
+    for what in STARTERS:
+        name = getattr(args, what)
+        if name is not None:
+            written = start(args.folder, what, name)
+            print(*written, sep="\n")
+            print(f"next: fddbench run {written[-1]}")
+            return 0
+    for path in copy_shipped(args.folder):
+        print(path)
     return 0
 
 
