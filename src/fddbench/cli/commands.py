@@ -120,13 +120,27 @@ def cost(args: argparse.Namespace) -> int:
     """
     from fddbench.runner.load import detector_load, in_words
 
-    assembly = _one_detector(args.detector, args.campaign)
+    assembly = _assembly_with(args.detector, args.campaign)
     load = detector_load(assembly.detectors[args.detector], assembly.loop.bus)
     print(f"{args.detector}, at {assembly.loop.bus.sample_s} s: {in_words(load)}")
     if load.cost is not None:
         for name, number in load.cost.operations.items():
             print(f"  {name:<12}{number:>6}")
     return 0
+
+
+def _assembly_with(detector: str, campaign: Path | None) -> "Assembly":
+    """Assembly of a campaign with a design, or with a variant of one that the campaign sweeps."""
+    from dataclasses import replace
+
+    from fddbench.campaign.load import read_campaign
+    from fddbench.runner.assembling import assemble
+
+    own = read_campaign(campaign) if campaign else None
+    swept = [design for design in own.designs if design.name == detector and design.swept] if own else []
+    if own is None or not swept:
+        return _one_detector(detector, campaign)
+    return assemble(replace(own, designs=tuple(swept), reconfigure=""))
 
 
 def _one_detector(design: str, campaign: Path | None) -> "Assembly":
