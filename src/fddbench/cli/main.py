@@ -47,15 +47,7 @@ def parser() -> argparse.ArgumentParser:
     run.add_argument("--quiet", action="store_true", help="no progress")
     run.add_argument("--wide", action="store_true", help="every column of the table, as wide as it is")
 
-    report = _add(subs, "report", commands.report)
-    report.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
-    report.add_argument("--output", type=Path, metavar="FILE", help="page to write (default: DIR/report.html)")
-
-    scores = _add(subs, "scores", commands.scores)
-    scores.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
-
-    finding = _add(subs, "finding", commands.finding)
-    finding.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+    _reading(subs)
 
     cost = _add(subs, "cost", commands.cost)
     cost.add_argument("detector", metavar="DETECTOR", help="name of a design")
@@ -75,6 +67,36 @@ def parser() -> argparse.ArgumentParser:
     _tune(_add(subs, "tune", designing.tune))
 
     _modes(_add(subs, "modes", aircraft.modes))
+    _asking(subs)
+    completing.attach(top)
+    return top
+
+
+def _add(subs, name: str, command: Callable[[argparse.Namespace], int]) -> argparse.ArgumentParser:  # type: ignore[no-untyped-def]
+    paragraphs = cleandoc(command.__doc__ or "").split("\n\n")
+    text = "\n\n".join(fill(" ".join(each.split()), _WIDTH) for each in paragraphs)
+    added: argparse.ArgumentParser = subs.add_parser(
+        name, help=paragraphs[0], description=text, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    added.set_defaults(command=command)
+    return added
+
+
+def _reading(subs) -> None:  # type: ignore[no-untyped-def]
+    """Commands that read a folder of results."""
+    report = _add(subs, "report", commands.report)
+    report.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+    report.add_argument("--output", type=Path, metavar="FILE", help="page to write (default: DIR/report.html)")
+
+    scores = _add(subs, "scores", commands.scores)
+    scores.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+
+    finding = _add(subs, "finding", commands.finding)
+    finding.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+
+
+def _asking(subs) -> None:  # type: ignore[no-untyped-def]
+    """Commands that tell what there is, and that give something to start from."""
     ask = _add(subs, "list", commands.list_)
     ask.add_argument(
         "subject", nargs="?", default="", metavar="SUBJECT",
@@ -90,18 +112,6 @@ def parser() -> argparse.ArgumentParser:
     _add(subs, "schema", commands.schema)
     completion = _add(subs, "completion", completing.completion)
     completion.add_argument("shell", choices=completing.SHELLS, help="bash, zsh or fish")
-    completing.attach(top)
-    return top
-
-
-def _add(subs, name: str, command: Callable[[argparse.Namespace], int]) -> argparse.ArgumentParser:  # type: ignore[no-untyped-def]
-    paragraphs = cleandoc(command.__doc__ or "").split("\n\n")
-    text = "\n\n".join(fill(" ".join(each.split()), _WIDTH) for each in paragraphs)
-    added: argparse.ArgumentParser = subs.add_parser(
-        name, help=paragraphs[0], description=text, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    added.set_defaults(command=command)
-    return added
 
 
 def _campaign(command: argparse.ArgumentParser) -> None:
