@@ -57,18 +57,18 @@ class _Shape:
 
 
 class Glr:
-    """``(g' C^-1 a)^2 / g' C^-1 g`` of the size a that fits each sensor best, over sensors or pairs g, shapes and onsets.
+    """``2 log`` of the likelihoods that a sensor is faulty and that it is not, over sensors and pairs, shapes and onsets.
 
-    A hypothesis is a step or a ramp of one size on one sensor, or on two alike, since some onset; the largest ratio of the
-    hypotheses with a sensor speaks against it. The sizes of the sensors err together with the prediction: C is
-    ``R / Σw² I + P (Σw / Σw²)² 1 1'`` with the variance P of the filter, which grows while it coasts. So a single sensor and
-    the other two, which leave the same differences, are told apart by the prediction alone, as well as it is known.
+    A hypothesis is a step or a ramp since some onset: of one size on one sensor, of one size on two, or of two sizes on two
+    (which costs a threshold, since two sizes fit more). Its ratio is ``(g' C^-1 a)^2 / g' C^-1 g`` with the sizes a that fit
+    each sensor best, or what it leaves unexplained less than no fault does. The sizes err together with the prediction: C is
+    ``R / Σw² I + P (Σw / Σw²)² 1 1'``, with the variance P of the filter, which grows while it coasts. A single sensor and
+    the other two leave the same differences, so they are told apart by the prediction, as well as it is known. What speaks
+    against a sensor is the largest ratio with it less the largest one without.
 
     Model assumed: the yaw-moment equation with estimated shares, see `fddbench.detection.yaw_moment`. Blind to what differs
-    by less than `differ_deg_s`; a pair that fails in opposite directions is no hypothesis of its own, it is found as its
-    sensors. Noisy with model errors beyond P. Knobs: longer windows find smaller and slower faults, at ratios that a short
-    one has not; the threshold trades these for wrong sites; ramps make the ratio of drifts larger. Cost: 655 operations with
-    three windows.
+    by less than `differ_deg_s`. Noisy with model errors beyond P. Knobs: longer windows find smaller and slower faults, at
+    ratios that a short one has not; the threshold trades these for wrong sites. Cost: COST operations with two windows.
 
     References
     ----------
@@ -81,7 +81,7 @@ class Glr:
     >>> import fddbench
     >>> smoke = fddbench.read("smoke", ["detectors=[glr_yaw_rate]", "duration_s=2.5"])
     >>> flight = fddbench.signals(smoke, "runaway_b", ["runaway_b/0/0/0"])  # two sensors from 2 s on
-    >>> flight.detectors["glr_yaw_rate"]["n_declared"][[200, 216], 0]
+    >>> flight.detectors["glr_yaw_rate"]["n_declared"][[200, 217], 0]
     array([0., 2.])
     """
 
@@ -95,7 +95,9 @@ class Glr:
     def __init__(self, gains: GlrGains, bus: Bus) -> None:
         self.watches, self.gains = bus.redundant("r_deg_s"), gains
         self.n, self.lengths = len(self.watches), gains.windows_samples
-        self.hypotheses = [{i} for i in range(self.n)] + [set(pair) for pair in combinations(range(self.n), 2)]
+        pairs = tuple(combinations(range(self.n), 2))
+        self.alike = (*((i,) for i in range(self.n)), *pairs)
+        self.hypotheses = (*self.alike, *pairs)
         self.watch = Watch(gains, sample_s=bus.sample_s, n_sensors=self.n)
         rows = self.n * len(self.lengths)
         self.states = Layout(
@@ -120,13 +122,12 @@ class Glr:
         e, S = self.watch.innovations(x.watch, measured.r_deg_s)
         common = S - self.watch.filter.noise  # what the innovations of all sensors share
         plain, weighted = self._sums(x, e)
-        found = [
-            against
+        tried = [
+            self._ratios(sums[self.n * m : self.n * (m + 1)], shape, common)
             for m, L in enumerate(self.lengths)
             for sums, shape in ((plain, _step(L)), (weighted, _ramp(L)))
-            for against in [self._against(sums[self.n * m : self.n * (m + 1)], shape, common)]
         ]
-        ratio = reduce(np.maximum, found)
+        ratio = self._against([reduce(np.maximum, one) for one in zip(*tried, strict=True)])
         threshold = self.gains.ratio_threshold
         watch, declared, compared = self.watch.step(x.watch, c, n, measured, ratio, ratio > threshold)
         worst = largest(ratio)
@@ -148,19 +149,34 @@ class Glr:
             weighted.append(x.weighted[own] + (float(L) * e - x.plain[own]))
         return np.concatenate(plain), np.concatenate(weighted)
 
-    def _against(self, sums: Rows, shape: _Shape, variance: Row) -> Rows:
-        """Largest ratio of the hypotheses with each sensor, (n_sensors, n_cases)."""
-        alpha = self.watch.filter.noise * shape.squared  # of the sums, which are the sizes times Σw²
-        beta = variance * (shape.common * shape.common)
-        gamma = beta / (alpha + float(self.n) * beta)
-        together = gamma * total(sums)
-        ratios = []
-        for group in self.hypotheses:
+    def _ratios(self, sums: Rows, shape: _Shape, common: Row) -> list[Row]:
+        """Ratio of every hypothesis for one shape and onset; of the sums, which are the sizes times Σw²."""
+        alpha, beta = self.watch.filter.noise * shape.squared, common * (shape.common * shape.common)
+        s, n, every = list(sums), float(self.n), total(sums)
+        gamma = beta / (alpha + n * beta)
+        together, ratios = gamma * every, []
+        for group in self.alike:
             k = float(len(group))
-            spoken = total([sums[i] for i in sorted(group)]) - k * together
+            spoken = total([s[i] for i in group]) - k * together
             ratios.append(spoken * spoken / (alpha * (k - k * k * gamma)))
-        with_sensor = [[r for r, g in zip(ratios, self.hypotheses, strict=True) if i in g] for i in range(self.n)]
-        return np.stack([largest(own) for own in with_sensor])
+        squares = sums * sums
+        all_left = total(squares) - together * every
+        share = beta / (alpha + (n - 2.0) * beta)
+        for pair in self.alike[self.n :]:
+            rest = [i for i in range(self.n) if i not in pair]
+            sum_left = total([s[i] for i in rest])
+            left = total([squares[i] for i in rest]) - share * sum_left * sum_left
+            ratios.append((all_left - left) / alpha - self.gains.ratio_threshold)
+        return ratios
+
+    def _against(self, ratios: list[Row]) -> Rows:
+        """Best ratio with each sensor less the best without it, (n_sensors, n_cases), not negative."""
+        rows = []
+        for i in range(self.n):
+            own = [r for r, group in zip(ratios, self.hypotheses, strict=True) if i in group]
+            other = [r for r, group in zip(ratios, self.hypotheses, strict=True) if i not in group]
+            rows.append(np.maximum(largest(own) - np.maximum(largest(other), 0.0), 0.0))
+        return np.stack(rows)
 
 
 def _step(length: int) -> _Shape:
