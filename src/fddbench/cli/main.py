@@ -12,7 +12,7 @@ from textwrap import fill
 from typing import Any
 
 from fddbench import __version__
-from fddbench.cli import aircraft, commands, completing, designing
+from fddbench.cli import aircraft, commands, completing, designing, looking
 from fddbench.errors import FddbenchError, ResultsWarning
 
 __all__ = ["entry", "main", "parser"]
@@ -48,6 +48,7 @@ def parser() -> argparse.ArgumentParser:
     run.add_argument("--wide", action="store_true", help="every column of the table, as wide as it is")
 
     _reading(subs)
+    _looking(subs)
 
     cost = _add(subs, "cost", commands.cost)
     cost.add_argument("detector", metavar="DETECTOR", help="name of a design")
@@ -93,6 +94,34 @@ def _reading(subs) -> None:  # type: ignore[no-untyped-def]
 
     finding = _add(subs, "finding", commands.finding)
     finding.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+
+
+def _looking(subs) -> None:  # type: ignore[no-untyped-def]
+    """Commands that look at single flights."""
+    replay = _add(subs, "replay", looking.replay)
+    replay.add_argument("source", type=Path, metavar="DIR", help="folder of results, or a campaign")
+    replay.add_argument("case", metavar="CASE", help="name of the flight as in the column case, jam_a/3/0/17")
+    replay.add_argument(
+        "--detector", action="append", default=[], metavar="NAME", help="show this detector alone (may be repeated)"
+    )
+    replay.add_argument(
+        "--signal",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="draw this signal (may be repeated; default: a few)",
+    )
+    replay.add_argument("--plot", type=Path, metavar="FILE", help="picture to write: .html, .png, .svg or .pdf")
+    replay.add_argument("--to", type=Path, metavar="FILE", help="table to write: .csv, .parquet, .mat or .h5")
+
+    worst = _add(subs, "worst", looking.worst)
+    worst.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+    worst.add_argument(
+        "--detector", action="append", default=[], metavar="NAME", help="this detector alone (may be repeated)"
+    )
+    worst.add_argument(
+        "--most", type=_jobs, default=3, metavar="N", help="flights of a kind in a scenario (default: 3)"
+    )
 
 
 def _asking(subs) -> None:  # type: ignore[no-untyped-def]
