@@ -156,10 +156,21 @@ def _campaign(command: argparse.ArgumentParser) -> None:
 def _tune(command: argparse.ArgumentParser) -> None:
     command.add_argument("design", type=Path, metavar="DESIGN", help="name of a design, or its file")
     _campaign(command)
-    command.add_argument(
-        "--false-alarm-rate", type=_share, default=0.01, metavar="SHARE",
-        help="largest share of healthy flights with a false alarm (default: 0.01)",
+    target = command.add_mutually_exclusive_group()
+    target.add_argument(
+        "--false-alarm-rate", type=_share, metavar="SHARE",
+        help="largest share of these very flights with a false alarm (default: 0.01)",
     )  # fmt: skip
+    target.add_argument("--per-flight", type=_share, metavar="SHARE", help="largest share of other flights, e.g. 0.01")
+    target.add_argument("--per-hour", type=float, metavar="RATE", help="most false alarms per hour of other flights")
+    command.add_argument(
+        "--confidence", type=_share, metavar="SHARE", help="with which that holds, e.g. 0.95 (default: on average)"
+    )
+    command.add_argument(
+        "--by", choices=("factor", "residual"),
+        help="one factor on all thresholds, or equally many flights beyond each residual (default where the kind shows them)",
+    )  # fmt: skip
+    command.add_argument("--only", metavar="KEY[,KEY]", help="tune only these thresholds, by one factor")
     command.add_argument(
         "--output", type=Path, metavar="FILE", help="file to write (default: detectors/DESIGN_tuned.yaml)"
     )
