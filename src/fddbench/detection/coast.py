@@ -63,11 +63,11 @@ class Coast:
     what a detector with a model does not do better was no work for a model. Blind to what differs by less than
     `differ_deg_s`, and on the wrong side where the yaw rate moves faster than the fault grows: slow pairs, faults at the
     entry of a turn. Knobs: a smaller `differ_deg_s` decides while the last agreement is fresh, and alarms on the sensors' own
-    errors; a shorter confirmation does the same. Cost: 73 operations.
+    errors; a shorter confirmation does the same. Cost: 116 operations.
 
     References
     ----------
-    Folklore of voting; stated here so that nobody is proud of too little.
+    None; it is what is left of the other monitors when the model is taken away.
 
     Examples
     --------

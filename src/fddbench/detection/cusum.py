@@ -52,7 +52,7 @@ class Cusum:
     of unit variance while healthy. Blind to shifts below the drift, and to what differs by less than `differ_deg_s`; noise
     of zero mean runs the sums up only because it is larger than the drift. Noisy with model errors: an offset beyond the
     drift runs a sum up in time, whatever its size, which only the comparison then keeps from an accusation. Knobs: the drift
-    says how small a shift counts, the threshold how long it takes, about threshold / (shift - drift) samples. Cost: 391
+    says how small a shift counts, the threshold how long it takes, about threshold / (shift - drift) samples. Cost: 397
     operations.
 
     References

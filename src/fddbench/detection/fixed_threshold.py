@@ -71,7 +71,7 @@ class FixedThreshold:
     `rate_deg_s2`, and that of three sensors the odd one is wrong unless others have jumped. So it finds jumps of two sensors,
     and is wrong, with certainty, where two drift or swing together more slowly than that: they win the vote. Blind to what
     differs by less than `differ_deg_s`. Knobs: `rate_deg_s2` must stay above what manoeuvres, gusts and noise / `rate_lag_s`
-    reach; longer memories tell pairs whose difference takes its time, and accuse those that were merely shaken. Cost: 145
+    reach; longer memories tell pairs whose difference takes its time, and accuse those that were merely shaken. Cost: 140
     operations.
 
     References

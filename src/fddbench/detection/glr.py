@@ -68,7 +68,8 @@ class Glr:
 
     Model assumed: the yaw-moment equation with estimated shares, see `fddbench.detection.yaw_moment`. Blind to what differs
     by less than `differ_deg_s`. Noisy with model errors beyond P. Knobs: longer windows find smaller and slower faults, at
-    ratios that a short one has not; the threshold trades these for wrong sites. Cost: COST operations with two windows.
+    ratios that a short one has not; the threshold trades these for wrong sites. Cost: 694
+    operations with two windows.
 
     References
     ----------
