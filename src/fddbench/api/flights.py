@@ -16,7 +16,7 @@ from fddbench.runner.declared import declared_rows
 from fddbench.runner.fingerprint import frozen
 from fddbench.runner.replay import replay_campaign
 
-__all__ = ["score", "signals"]
+__all__ = ["campaign_of", "score", "signals"]
 
 
 def signals(source: Campaign | str | Path, scenario: str, cases: Sequence[Address] | None = None) -> Recording:
@@ -41,7 +41,7 @@ def signals(source: Campaign | str | Path, scenario: str, cases: Sequence[Addres
     FddbenchError
         There is no such scenario or case, or none of the flights can be flown.
     """
-    campaign = _campaign(source)
+    campaign = campaign_of(source)
     names = [entry.name for entry in campaign.scenarios]
     if scenario not in names:
         raise FddbenchError(f"campaign {campaign.name!r} has no scenario {scenario!r}; known: {', '.join(names)}")
@@ -95,7 +95,7 @@ def score(
     FddbenchError
         Arrays of another shape than the flights have.
     """
-    assembly = assemble(_campaign(source))
+    assembly = assemble(campaign_of(source))
     table = declared_rows(
         assembly, assembly.plan.numbers(cases), declared, alarm=alarm, residual=residual, estimate=estimate,
         estimates=estimates, watches=watches, name=name,
@@ -104,7 +104,7 @@ def score(
     return frame
 
 
-def _campaign(source: Campaign | str | Path) -> Campaign:
+def campaign_of(source: Campaign | str | Path) -> Campaign:
     """Campaign itself, of a folder of results, or of a file."""
     if isinstance(source, Campaign):
         return source
