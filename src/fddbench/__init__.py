@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from fddbench.api.bounds import bounds
     from fddbench.api.campaigns import plan, read, run
     from fddbench.api.designs import tune
+    from fddbench.api.findings import finding
     from fddbench.api.flights import score, signals
     from fddbench.api.pages import report
     from fddbench.api.tables import alarms, columns, detectable, load, load_events, summary
@@ -21,6 +22,7 @@ __all__ = [
     "bounds",
     "columns",
     "detectable",
+    "finding",
     "load",
     "load_events",
     "plan",
@@ -39,6 +41,7 @@ _ROOMS = {
     **dict.fromkeys(("alarms", "columns", "detectable", "load", "load_events", "summary"), "tables"),
     **dict.fromkeys(("score", "signals"), "flights"),
     "bounds": "bounds",
+    "finding": "findings",
     "report": "pages",
     "tune": "designs",
 }

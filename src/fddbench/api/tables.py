@@ -89,7 +89,8 @@ def columns(table: str = "rows") -> dict[str, str]:
     ----------
     table : {"rows", "events", "summary", "alarms", "detectable", "bounds"}
         As `load`, `load_events`, `summary`, `alarms`, `detectable` and `bounds` give them. Rows have besides a column
-        ``p_<name>`` a parameter, and ``f1_<key>`` what is drawn or swept of the first fault.
+        ``p_<name>`` a parameter, ``f1_<key>`` what is drawn or swept of the first fault, and ``gain_<key>`` or
+        ``factor_<key>`` what is swept of detectors.
 
     Examples
     --------

@@ -45,9 +45,9 @@ class Detector(Protocol):
     further arguments, ``from_design(gains, bus, scheduling=...)``.
 
     It may have more, and has these otherwise: ``recorded``, the names of what its verdicts show (()); ``watches``, the names
-    of the sites it declares (all sites of the bus); ``isolates`` (True; False for one that only detects); ``sees`` ("sensors";
-    "voted" for one that looks at a voted signal alone, which is not ranked with those that see what it is voted of);
-    ``estimates``, what `Verdict.estimate` is of (None: it gives none): "sites", or the name of a voted signal; ``constants``
+    of the sites it declares (all sites of the bus); ``isolates`` (True; False for one that only detects); ``estimates``, what
+    `Verdict.estimate` is of (None: it gives none): "sites", or the name of a voted signal; ``sees`` ("sensors"; "voted" for one
+    that looks at the voted signal and not at the sensors it is made of, and is not ranked with those that do); ``constants``
     and ``draws`` (none): a detector that has them is a full block, with ``start(c)`` and ``step(x, c, n, measured)``.
 
     **Rows.** With ``states``, a `Layout`, a step is a function on rows that is compiled, see `fddbench.interfaces`.

@@ -18,10 +18,10 @@ TIME_S = np.arange(WITHIN)[:, np.newaxis] * SAMPLE_S
 D_99 = 4.7534 + 2.3263  # found in 99 % at a false alarm in a million
 
 
-def models(wind=None, **own):
+def models(wind=None, **others):
     bench = load("benchmark", "yaw_rate")()
-    chosen = default_choices(bench) | ({"wind": wind} if wind else {})
-    values = {p.name: np.array([p.default]) for p in bench.plant(chosen).parameters} | own
+    chosen = default_choices(bench) | ({"wind": wind} if wind else {}) | others
+    values = {p.name: np.array([p.default]) for p in bench.plant(chosen).parameters}
     return bench.ideal(chosen, values, SAMPLE_S)
 
 
@@ -86,10 +86,11 @@ def test_the_model_is_that_of_the_flights():
     B = own.matrix("B", own.rho(*(parameters[name] for name in own.names)))[:, :, 0]
     A4 = own.matrix("A", own.rho(*(parameters[name] for name in own.names)))[:, :, 0]
     held = expm(np.block([[A4, np.eye(4)], [np.zeros((4, 8))]]) * SAMPLE_S)[:4, 4:] @ B
-    seen = ["phi_deg", "beta_deg", "p_deg_s", "r_deg_s_1", "r_deg_s_2", "r_deg_s_3"]
+    seen = {"beta_deg": 0, "r_deg_s_1": 1, "r_deg_s_2": 2, "r_deg_s_3": 3, "p_deg_s": 4, "phi_deg": 7}
     y = np.stack([flight.signals[name][:, 0] for name in seen], axis=1)
+    rows = list(seen.values())
     u = np.stack([flight.signals[f"surface_deg_{i + 1}"][:, 0] for i in range(13)], axis=1)
-    A, C, Q, R, P = (M[0] for M in (model.A, model.C, model.Q, model.R, model.start))
+    A, Q, P, C, R = model.A[0], model.Q[0], model.start[0], model.C[0, rows], model.R[0][np.ix_(rows, rows)]
     x, squares = np.zeros(7), []
     for k in range(min(len(y), 1500)):
         V = C @ P @ C.T + R
@@ -103,9 +104,17 @@ def test_the_model_is_that_of_the_flights():
     assert np.mean(squares) == pytest.approx(6.0, abs=4.0 * np.sqrt(12.0 / len(squares)))
 
 
+def test_a_unit_that_is_lost_whole_is_seen_in_all_three_signals():
+    own = models(sensors=PRESETS["iru"])["exact"]
+    alone = detectability(own, Faults(added={"r1": 0.01 * TIME_S}, before=np.array([BEFORE])))[1]
+    lost = dict.fromkeys(("r1", "p1", "phi1"), 0.01 * TIME_S)
+    assert detectability(own, Faults(added=lost, before=np.array([BEFORE])))[1] > 1.1 * alone
+    assert "drawn errors known" in own.about
+
+
 def test_what_has_no_bound_says_why():
     chosen = {"sensors": PRESETS["ideal"], "wind": WINDS["none"]}
     assert "at once" in ideal_models(chosen, {}, SAMPLE_S)
     bench = load("benchmark", "yaw_rate")()
-    other = {"plant": bench.choices["plant"].options["transport_6dof"]}
+    other = default_choices(bench) | {"plant": bench.choices["plant"].options["transport_6dof"]}
     assert bench.ideal(other, {}, SAMPLE_S) == "this plant states no ideal model"
