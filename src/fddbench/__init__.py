@@ -14,7 +14,9 @@ if TYPE_CHECKING:
     from fddbench.api.findings import finding
     from fddbench.api.flights import score, signals
     from fddbench.api.pages import report
+    from fddbench.api.replaying import table_of
     from fddbench.api.tables import alarms, columns, detectable, load, load_events, summary
+    from fddbench.api.worst import worst
 
 __all__ = [
     "__version__",
@@ -32,7 +34,9 @@ __all__ = [
     "score",
     "signals",
     "summary",
+    "table_of",
     "tune",
+    "worst",
 ]
 __version__ = "0.1.0"
 
@@ -43,7 +47,9 @@ _ROOMS = {
     "bounds": "bounds",
     "finding": "findings",
     "report": "pages",
+    "table_of": "replaying",
     "tune": "designs",
+    "worst": "worst",
 }
 
 
