@@ -8,6 +8,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from fddbench.api.bounds import bounds
     from fddbench.api.campaigns import plan, read, run
     from fddbench.api.designs import tune
     from fddbench.api.findings import finding
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 __all__ = [
     "__version__",
     "alarms",
+    "bounds",
     "columns",
     "detectable",
     "finding",
@@ -42,6 +44,7 @@ _ROOMS = {
     **dict.fromkeys(("plan", "read", "run"), "campaigns"),
     **dict.fromkeys(("alarms", "columns", "detectable", "load", "load_events", "summary"), "tables"),
     **dict.fromkeys(("score", "signals"), "flights"),
+    "bounds": "bounds",
     "finding": "findings",
     "report": "pages",
     "table_of": "replaying",

@@ -58,6 +58,8 @@ def parser() -> argparse.ArgumentParser:
         help="campaign whose benchmark and sample time count (default: the first shipped one that feeds it)",
     )  # fmt: skip
 
+    _bound(_add(subs, "bound", commands.bound))
+
     check = _add(subs, "check", commands.check)
     _campaign(check)
 
@@ -153,6 +155,25 @@ def _campaign(command: argparse.ArgumentParser) -> None:
     )  # fmt: skip
 
 
+def _bound(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "campaign",
+        type=Path,
+        metavar="CAMPAIGN.yaml",
+        help="campaign file, name of a shipped one, or folder of results",
+    )
+    command.add_argument(
+        "--p-fa", type=_probability, default=1e-6, metavar="P", help="false alarms of one decision (default: 1e-6)"
+    )
+    command.add_argument(
+        "--flights",
+        type=_flights,
+        default=25,
+        metavar="N",
+        help="flights of a scenario that are looked at (default: 25)",
+    )
+
+
 def _tune(command: argparse.ArgumentParser) -> None:
     command.add_argument("design", type=Path, metavar="DESIGN", help="name of a design, or its file")
     _campaign(command)
@@ -193,6 +214,24 @@ def _share(text: str) -> float:
     if not 0.0 <= value < 1.0:
         raise argparse.ArgumentTypeError(f"need a share from 0 to below 1, e.g. 0.01 for 1 %, got {text!r}")
     return value
+
+
+def _probability(text: str) -> float:
+    """Probability of a false alarm."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = -1.0
+    if not 0.0 < value < 1.0:
+        raise argparse.ArgumentTypeError(f"need a probability above 0 and below 1, e.g. 1e-6, got {text!r}")
+    return value
+
+
+def _flights(text: str) -> int:
+    """Number of flights."""
+    if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= 10_000:
+        raise argparse.ArgumentTypeError(f"need a whole number from 1 to 10000, got {text!r}")
+    return int(text)
 
 
 def _jobs(text: str) -> int:
