@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint wheel lowest scores bench clean
+.PHONY: demo test lint wheel lowest scores findings bench clean
 
 demo: $(VENV)/ready
 	$(BIN)/fddbench run campaigns/smoke.yaml --fresh
@@ -33,6 +33,13 @@ scores: $(VENV)/ready
 	for name in smoke yaw_rate_table8 jet_engine_monte_carlo b747_monte_carlo b747_trim fes_monte_carlo; do \
 	  $(BIN)/fddbench run campaigns/$$name.yaml --fresh --quiet && mkdir -p reports/$$name \
 	  && $(BIN)/fddbench scores results/$$name > reports/$$name/scores.yaml || exit 1; done
+
+# what the campaigns on yaw-rate detectors found, in ten lines each, written from their rows
+findings: $(VENV)/ready
+	for path in campaigns/yaw_rate_*.yaml; do name=$$(basename $$path .yaml); \
+	  grep -q '^purpose: tuning' $$path && continue; \
+	  $(BIN)/fddbench run $$path --fresh --quiet; mkdir -p reports/$$name \
+	  && $(BIN)/fddbench finding results/$$name > reports/$$name/finding.md || exit 1; done
 
 # how fast the engine is beside others, on a machine that does nothing else
 bench: $(VENV)/ready-bench

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from fddbench.api.campaigns import plan, read, run
     from fddbench.api.designs import tune
+    from fddbench.api.findings import finding
     from fddbench.api.flights import score, signals
     from fddbench.api.pages import report
     from fddbench.api.tables import alarms, columns, detectable, load, load_events, summary
@@ -19,6 +20,7 @@ __all__ = [
     "alarms",
     "columns",
     "detectable",
+    "finding",
     "load",
     "load_events",
     "plan",
@@ -36,6 +38,7 @@ _ROOMS = {
     **dict.fromkeys(("plan", "read", "run"), "campaigns"),
     **dict.fromkeys(("alarms", "columns", "detectable", "load", "load_events", "summary"), "tables"),
     **dict.fromkeys(("score", "signals"), "flights"),
+    "finding": "findings",
     "report": "pages",
     "tune": "designs",
 }

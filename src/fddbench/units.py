@@ -40,6 +40,7 @@ class Unit:
         return size + {
             "amplitude": self.suffix,
             "hold_value": self.suffix,
+            "quantum": self.suffix,
             "rate": self.rate_suffix,
             "variance": self.square_suffix,
         }.get(size, "")

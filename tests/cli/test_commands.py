@@ -82,9 +82,7 @@ def test_a_mistake_exits_with_two_and_writes_nothing(tiny, capsys, argv):
     assert "Traceback" not in message
 
 
-@pytest.mark.parametrize(
-    "argv", [["run"], ["fly"], ["run", "x.yaml", "--jobs", "0"], ["run", "x.yaml", "--jobs", "²"], []]
-)
+@pytest.mark.parametrize("argv", [["run"], ["fly"], ["run", "x.yaml", "--jobs", "0"], ["run", "x.yaml", "--jobs", "²"]])
 def test_wrong_usage_exits_with_two(argv, capsys):
     with pytest.raises(SystemExit) as exit_:
         main(argv)

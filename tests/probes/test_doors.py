@@ -137,6 +137,36 @@ def test_actuators_in_deg_and_n_have_every_fault_alike_in_compiled_code(beside):
     assert thrust_n[-1, 6:].tolist() == [100.0, 6.0, 80.0]
 
 
+def test_distorted_and_played_sensors_are_alike_in_compiled_code(beside):
+    def broken(name, **fault):
+        return {
+            "name": name,
+            "manoeuvre": "hold",
+            "faults": [{"kind": name, "sites": ["vane"], "onset_s": 0.5, **fault}],
+        }
+
+    (beside / "rec.csv").write_text("time_s,value_deg\n0,1\n0.1,2\n0.25,-1\n")
+    scenarios = [
+        broken("spike", amplitude_deg=1.0, width_s=0.02, period_s={"grid": [0.1, 0.25]}),
+        broken("stuck_bit", bit={"grid": [0, 3, 5]}, value=1, quantum_deg=0.05),
+        broken("stale", every_samples={"grid": [3, 10]}),
+        broken("scale_factor", scale_factor_percent={"uniform": [-20.0, 20.0]}),
+        broken("latency", latency_s={"uniform": [0.0, 0.2]}),
+        broken("quantisation", quantum_deg=0.3),
+        broken("series", file="rec.csv", after="repeat", start="uniform", gain={"grid": [1.0, -2.0]}),
+    ]
+    common = {"benchmark": "three_units.py:ThreeUnits", "detectors": ["watch_all"]}
+    common["dispersions"] = {"monte_carlo": {"runs": 2}}
+    assembly = assemble(read_campaign(write(beside, scenarios=scenarios, **common)))
+    batch = assembly.batch(np.arange(assembly.plan.n_cases))
+    compiled, plain = (Flyer(assembly, e).fly(batch, ["measured:vane_deg"]).recorded for e in ("compiled", "numpy"))
+    assert compiled["measured:vane_deg"].tobytes() == plain["measured:vane_deg"].tobytes()
+    only = assemble(read_campaign(write(beside, scenarios=[broken("latency", latency_s=0.1)], **common)))
+    batch = only.batch(np.arange(2))
+    compiled, plain = (Flyer(only, e).fly(batch, ["measured:vane_deg"]).recorded for e in ("compiled", "numpy"))
+    assert compiled["measured:vane_deg"].tobytes() == plain["measured:vane_deg"].tobytes()
+
+
 def test_a_benchmark_a_fault_and_a_detector_come_from_files_beside_the_campaign():
     rows, _ = rows_of(BESIDE / "own.yaml")
     assert set(rows["status"]) == {"ok"}
@@ -190,7 +220,7 @@ def test_a_new_choice_is_added_in_one_place(beside, monkeypatch):
         read_campaign(write(beside, load="heavi", scenarios=[HEALTHY]))
 
 
-def test_every_fault_kind_flies_on_a_site_of_every_unit():
+def test_every_fault_kind_flies_on_a_site_of_every_unit(tmp_path):
     base = {"bias": {"amplitude": 1}, "jam": {"amplitude": 1}, "runaway": {"rate": 2}, "noise": {"variance": 1}}
     base |= {
         "drift": {"rate": 1, "amplitude": 2},
@@ -198,11 +228,22 @@ def test_every_fault_kind_flies_on_a_site_of_every_unit():
         "oscillatory": {"amplitude": 1, "frequency_hz": 3},
         "effectiveness": {"loss_percent": 30},
         "disconnection": {},
+        "scale_factor": {"scale_factor_percent": 3},
+        "quantisation": {"quantum": 0.1},
+        "stuck_bit": {"bit": 3, "value": 1, "quantum": 0.1},
+        "stale": {"every_samples": 3},
+        "latency": {"latency_s": 0.03},
+        "spike": {"amplitude": 1, "width_s": 0.02},
+        "series": {"file": "rec.csv"},
     }
     assert set(base) == set(kinds.known("fault"))
     for unit in ("deg", "N", ""):
+        suffix = {"deg": "_deg", "N": "_n", "": ""}[unit]
+        (tmp_path / "rec.csv").write_text(f"time_s,value{suffix}\n0,1\n0.1,2\n")
         for kind, sizes in base.items():
             keys = {"amplitude": {"deg": "amplitude_deg", "N": "amplitude_n", "": "amplitude"}[unit]}
+            keys["quantum"] = keys["amplitude"].replace("amplitude", "quantum")
             keys["rate"] = {"deg": "rate_deg_s", "N": "rate_n_s", "": "rate_per_s"}[unit]
             keys["variance"] = {"deg": "variance_deg2", "N": "variance_n2", "": "variance"}[unit]
-            testing.check_fault(kind, {keys.get(size, size): value for size, value in sizes.items()}, unit=unit)
+            own = {keys.get(size, size): value for size, value in sizes.items()}
+            testing.check_fault(kind, own, unit=unit, beside=tmp_path)

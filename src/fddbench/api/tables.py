@@ -88,7 +88,8 @@ def columns(table: str = "rows") -> dict[str, str]:
     ----------
     table : {"rows", "events", "summary", "alarms", "detectable"}
         As `load`, `load_events`, `summary`, `alarms` and `detectable` give them. Rows have besides a column ``p_<name>`` a
-        parameter, and ``f1_<key>`` what is drawn or swept of the first fault.
+        parameter, ``f1_<key>`` what is drawn or swept of the first fault,
+        and ``gain_<key>`` or ``factor_<key>`` what is swept of detectors.
 
     Examples
     --------

@@ -152,8 +152,8 @@ def _short(value: Any) -> str:
 def _rest(plan: Plan) -> Iterator[str]:
     yield from _dispersions(plan.campaign.dispersions)
     yield "Detectors"
-    for design in plan.campaign.designs:
-        yield from _design(design)
+    for name in dict.fromkeys(design.base for design in plan.campaign.designs):
+        yield from _design([design for design in plan.campaign.designs if design.base == name])
 
 
 def _dispersions(dispersions: Dispersions) -> Iterator[str]:
@@ -182,10 +182,19 @@ def _distribution(distribution: Distribution) -> str:
     return f"normal, mean {bell.mean:g}, std {bell.std:g}{edges}"
 
 
-def _design(design: Design) -> Iterator[str]:
+def _design(variants: Sequence[Design]) -> Iterator[str]:
+    """A design, and what of it is swept."""
+    design = variants[0]
     seen = ", ".join(f"{entry.campaign} seed {entry.seed}" for entry in design.tuned_on) or "no campaign"
-    text = f"{design.name} ({design.kind.name}): {' '.join(design.source.split()).rstrip('.')}; tuned on {seen}"
+    text = f"{design.base} ({design.kind.name}): {' '.join(design.source.split()).rstrip('.')}; tuned on {seen}"
     yield fill(text, _WIDTH, initial_indent="  ", subsequent_indent="    ")
+    gains = [each.swept for each in variants if each.swept]
+    for column in dict.fromkeys(gain.column for gain in gains):
+        swept = [gain for gain in gains if gain.column == column]
+        said = f"{swept[0].key} {'×' if swept[0].factor else '='} {_values(tuple(gain.value for gain in swept))}"
+        yield f"    swept, a detector a value: {said}"
+    if gains and len(gains) < len(variants):
+        yield "    and as the design says"
 
 
 def _bill(plan: Plan, seconds: float, jobs: int) -> Iterator[str]:

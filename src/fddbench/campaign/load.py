@@ -3,6 +3,7 @@
 import json
 import re
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
@@ -13,7 +14,7 @@ from pydantic import ValidationError
 from fddbench import gallery, kinds
 from fddbench.campaign.meaning import Campaign, Scenario
 from fddbench.campaign.reading.canonical import canonical_text, fingerprint
-from fddbench.campaign.reading.document import Document, refuse
+from fddbench.campaign.reading.document import Address, Document, refuse
 from fddbench.campaign.reading.overrides import with_overrides
 from fddbench.campaign.reading.yaml_nodes import read_yaml
 from fddbench.campaign.rules.consistency import Faults, inconsistencies
@@ -21,9 +22,11 @@ from fddbench.campaign.rules.fault_entries import ReadFaults, read_faults
 from fddbench.campaign.rules.messages import mistakes_of
 from fddbench.campaign.rules.model import NAME_PATTERN, CampaignFile, campaign_file
 from fddbench.campaign.rules.references import Chosen, choose, unknown_names
+from fddbench.campaign.rules.swept import Sweep, SweptDesign
 from fddbench.campaign.rules.wording import shown
 from fddbench.designs.design import Design, read_design
 from fddbench.designs.finding import find_design
+from fddbench.designs.sweeps import variants
 from fddbench.errors import CampaignError, FddbenchError, Mistake, did_you_mean, reason_of
 from fddbench.interfaces import Benchmark, Plant
 from fddbench.results.folder import RESERVED
@@ -183,17 +186,33 @@ def _document(path: Path) -> Document:
 def _designs(document: Document, folder: Path) -> tuple[tuple[Design, ...], list[Mistake]]:
     found: list[Design] = []
     mistakes: list[Mistake] = []
-    for number, name in enumerate(document.items("detectors")):
-        where = document.where(("detectors", number))
+    for number, entry in enumerate(document.items("detectors")):
+        at: Address = ("detectors", number)
+        name = entry.get("design") if isinstance(entry, dict) else entry
         if not isinstance(name, str) or not re.fullmatch(NAME_PATTERN, name):
             continue
+        where = document.where(at)
         try:
-            found.append(read_design(find_design(name, folder), where=where))
+            design = read_design(find_design(name, folder), where=where)
+            made, wrong = variants(design, _sweeps(entry), document, at) if entry is not name else ([design], [])
+            found += made
+            mistakes += wrong
         except CampaignError as error:
             mistakes += error.mistakes
         except FddbenchError as error:
             mistakes.append(Mistake(where, str(error)))
     return tuple(found), mistakes + _namesakes(found)
+
+
+def _sweeps(entry: Any) -> dict[str, Sweep]:
+    """Values by the key of the gain that an entry sweeps; what has mistakes is left out, the model tells them."""
+    found: dict[str, Sweep] = {}
+    listed = entry.get("sweep") if isinstance(entry, dict) else None
+    for key, values in (listed if isinstance(listed, dict) else {}).items():
+        with suppress(ValidationError):
+            one = {"design": entry.get("design"), "sweep": {key: values}}
+            found |= SweptDesign.model_validate_json(json.dumps(one), strict=True).sweeps
+    return found
 
 
 def _namesakes(designs: Sequence[Design]) -> list[Mistake]:
@@ -218,10 +237,10 @@ def _tuned_on_these_flights(written: CampaignFile, designs: Sequence[Design]) ->
     return [
         Mistake(
             design.where,
-            f"design {design.name!r} was tuned on campaign {written.name!r} with seed {written.seed}: its score on the "
+            f"design {design.base!r} was tuned on campaign {written.name!r} with seed {written.seed}: its score on the "
             "same flights would flatter it. Change the seed, or write purpose: tuning if this is the tuning",
         )
-        for design in designs
+        for design in {design.base: design for design in reversed(designs)}.values()
         if any((seen.campaign, seen.seed) == (written.name, written.seed) for seen in design.tuned_on)
     ]
 
@@ -270,7 +289,7 @@ def _content(
         | {"faults": [fault.model_dump(mode="json", by_alias=True) for fault in faults[number]]}
         for number, entry in enumerate(written.scenarios)
     ]
-    content["designs"] = {design.name: design.sha256 for design in designs}
+    content["designs"] = {design.base: design.sha256 for design in designs}
     if written.reconfigure is None:
         del content["reconfigure"]  # a campaign means what it meant before there was this key
     if beside:

@@ -88,10 +88,15 @@ class Campaign:
         own = (self.name, self.seed)
         return tuple(d.name for d in self.designs if any((seen.campaign, seen.seed) == own for seen in d.tuned_on))
 
+    @property
+    def gain_columns(self) -> tuple[str, ...]:
+        """Columns of the gains that are swept, ``gain_threshold_deg_s``."""
+        return tuple(dict.fromkeys(design.swept.column for design in self.designs if design.swept))
+
     def files(self) -> dict[str, bytes]:
         """Content by name of everything to keep in a folder of results so that the campaign can be read there again."""
         found = {"campaign.yaml": self.text.encode(), **self.beside}
         for design in self.designs:
-            found[f"detectors/{design.name}.yaml"] = design.text.encode()
+            found[f"detectors/{design.base}.yaml"] = design.text.encode()
             found |= {f"detectors/{name}": content for name, content in design.files.items()}
         return found

@@ -134,6 +134,11 @@ class Plan:
         found = {(each.line, each.key): each.column for s in self.scenarios for each in variations(s.faults)}
         return tuple(found[at] for at in sorted(found))
 
+    @property
+    def gain_columns(self) -> tuple[str, ...]:
+        """Columns of the gains of detectors that are swept, ``gain_threshold_deg_s``."""
+        return self.campaign.gain_columns
+
     def locate(self, cases: npt.ArrayLike) -> Addresses:
         """Addresses of cases by their numbers.
 

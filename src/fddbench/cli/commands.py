@@ -2,7 +2,6 @@
 
 import argparse
 import sys
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,7 +10,7 @@ from fddbench.errors import FddbenchError
 if TYPE_CHECKING:
     from fddbench.runner.assembly import Assembly
 
-__all__ = ["check", "cost", "init", "list_", "report", "run", "schema", "scores"]
+__all__ = ["check", "cost", "finding", "init", "list_", "report", "run", "schema", "scores"]
 
 
 def run(args: argparse.Namespace) -> int:
@@ -102,6 +101,17 @@ def scores(args: argparse.Namespace) -> int:
     return 0
 
 
+def finding(args: argparse.Namespace) -> int:
+    """Print what a campaign found: its question and at most ten lines of Markdown, written from its rows.
+
+    A folder that does not hold all flights of its campaign is refused.
+    """
+    from fddbench.api.findings import finding as found
+
+    print(found(args.folder), end="")
+    return 0
+
+
 def cost(args: argparse.Namespace) -> int:
     """Count what a step of a detector costs: the load on a flight computer.
 
@@ -110,13 +120,27 @@ def cost(args: argparse.Namespace) -> int:
     """
     from fddbench.runner.load import detector_load, in_words
 
-    assembly = _one_detector(args.detector, args.campaign)
+    assembly = _assembly_with(args.detector, args.campaign)
     load = detector_load(assembly.detectors[args.detector], assembly.loop.bus)
     print(f"{args.detector}, at {assembly.loop.bus.sample_s} s: {in_words(load)}")
     if load.cost is not None:
         for name, number in load.cost.operations.items():
             print(f"  {name:<12}{number:>6}")
     return 0
+
+
+def _assembly_with(detector: str, campaign: Path | None) -> "Assembly":
+    """Assembly of a campaign with a design, or with a variant of one that the campaign sweeps."""
+    from dataclasses import replace
+
+    from fddbench.campaign.load import read_campaign
+    from fddbench.runner.assembling import assemble
+
+    own = read_campaign(campaign) if campaign else None
+    swept = [design for design in own.designs if design.name == detector and design.swept] if own else []
+    if own is None or not swept:
+        return _one_detector(detector, campaign)
+    return assemble(replace(own, designs=tuple(swept), reconfigure=""))
 
 
 def _one_detector(design: str, campaign: Path | None) -> "Assembly":
@@ -148,56 +172,33 @@ def check(args: argparse.Namespace) -> int:
 
 
 def list_(args: argparse.Namespace) -> int:
-    """List what campaigns can name: benchmarks, faults, voters, detectors, shipped campaigns and designs."""
-    from fddbench import gallery, kinds
+    """List what campaigns can name: benchmarks, faults, voters, detectors, shipped campaigns and designs.
 
-    del args
-    for family in kinds.FAMILIES:
-        names = kinds.known(family)
-        if names:
-            print(f"{family}s")
-            _aligned({name: _about(family, name) for name in names})
-    for name in ("campaigns", "detectors"):
-        print("shipped campaigns" if name == "campaigns" else "shipped designs")
-        paths = sorted(gallery.folder(name).glob("*.yaml"))
-        _aligned({path.stem: path.read_text(encoding="utf-8").split("\n")[0].lstrip("# ") for path in paths})
+    The name of a benchmark shows all its names: plants, parameters, manoeuvres, fault sites, sensors, winds, signals, and the
+    designs that fit.
+    """
+    from fddbench.api.asking import ask
+
+    print(ask(args.subject))
     return 0
 
 
-def _aligned(about: Mapping[str, str]) -> None:
-    """Print names in a column as wide as the longest, and what they are beside them."""
-    width = max(map(len, about), default=0) + 2
-    for name, text in about.items():
-        print(f"  {name:<{width}}{text}")
-
-
-def _about(family: str, name: str) -> str:
-    """What a registered member says of itself; of one that cannot be imported, why."""
-    from fddbench import kinds
-
-    try:
-        kind = kinds.load(family, name)
-    except FddbenchError as error:
-        return f"(broken) {error}"
-    return str(getattr(kind, "about", "") or (kind.__doc__ or "").split("\n")[0])
-
-
 def init(args: argparse.Namespace) -> int:
-    """Copy the shipped campaigns and designs, to start from; what is there already is left alone."""
-    import shutil
+    """Write files to start from: a detector, benchmark, fault or campaign of your own, or copies of the shipped ones.
 
-    from fddbench import gallery
+    What is there already is left alone.
+    """
+    from fddbench.api.starting import STARTERS, copy_shipped, start
 
-    for name in ("campaigns", "detectors"):
-        target = args.folder / name
-        try:
-            target.mkdir(parents=True, exist_ok=True)
-            for path in sorted(gallery.folder(name).iterdir()):
-                if path.is_file() and not (target / path.name).exists():
-                    shutil.copyfile(path, target / path.name)
-                    print(target / path.name)
-        except OSError as error:
-            raise FddbenchError(f"cannot write into {target}: {error.strerror}; name another folder") from error
+    for what in STARTERS:
+        name = getattr(args, what)
+        if name is not None:
+            written = start(args.folder, what, name)
+            print(*written, sep="\n")
+            print(f"next: fddbench run {written[-1]}")
+            return 0
+    for path in copy_shipped(args.folder):
+        print(path)
     return 0
 
 

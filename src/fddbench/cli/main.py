@@ -5,15 +5,20 @@ import os
 import sys
 import warnings
 from collections.abc import Callable
+from inspect import cleandoc
 from io import TextIOWrapper
 from pathlib import Path
+from textwrap import fill
 from typing import Any
 
 from fddbench import __version__
-from fddbench.cli import aircraft, commands, designing
+from fddbench.cli import aircraft, commands, completing, designing
 from fddbench.errors import FddbenchError, ResultsWarning
 
 __all__ = ["entry", "main", "parser"]
+
+_WIDTH = 78
+"""Columns of help: those of a terminal of 80, less what argparse keeps free."""
 
 
 def parser() -> argparse.ArgumentParser:
@@ -24,7 +29,7 @@ def parser() -> argparse.ArgumentParser:
         epilog="Exit codes: 0 done, 1 done but some cases failed, 2 a mistake in what you wrote, 130 interrupted.",
     )
     top.add_argument("--version", action="version", version=f"fddbench {__version__}")
-    subs = top.add_subparsers(required=True, metavar="COMMAND")
+    subs = top.add_subparsers(metavar="COMMAND")
 
     run = _add(subs, "run", commands.run)
     _campaign(run)
@@ -42,12 +47,7 @@ def parser() -> argparse.ArgumentParser:
     run.add_argument("--quiet", action="store_true", help="no progress")
     run.add_argument("--wide", action="store_true", help="every column of the table, as wide as it is")
 
-    report = _add(subs, "report", commands.report)
-    report.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
-    report.add_argument("--output", type=Path, metavar="FILE", help="page to write (default: DIR/report.html)")
-
-    scores = _add(subs, "scores", commands.scores)
-    scores.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+    _reading(subs)
 
     cost = _add(subs, "cost", commands.cost)
     cost.add_argument("detector", metavar="DETECTOR", help="name of a design")
@@ -67,20 +67,51 @@ def parser() -> argparse.ArgumentParser:
     _tune(_add(subs, "tune", designing.tune))
 
     _modes(_add(subs, "modes", aircraft.modes))
-    _add(subs, "list", commands.list_)
-    init = _add(subs, "init", commands.init)
-    init.add_argument("folder", type=Path, nargs="?", default=Path(), metavar="DIR", help="where to (default: here)")
-    _add(subs, "schema", commands.schema)
+    _asking(subs)
+    completing.attach(top)
     return top
 
 
 def _add(subs, name: str, command: Callable[[argparse.Namespace], int]) -> argparse.ArgumentParser:  # type: ignore[no-untyped-def]
-    text = command.__doc__ or ""
+    paragraphs = cleandoc(command.__doc__ or "").split("\n\n")
+    text = "\n\n".join(fill(" ".join(each.split()), _WIDTH) for each in paragraphs)
     added: argparse.ArgumentParser = subs.add_parser(
-        name, help=text.split("\n")[0], description=text, formatter_class=argparse.RawDescriptionHelpFormatter
+        name, help=paragraphs[0], description=text, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     added.set_defaults(command=command)
     return added
+
+
+def _reading(subs) -> None:  # type: ignore[no-untyped-def]
+    """Commands that read a folder of results."""
+    report = _add(subs, "report", commands.report)
+    report.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+    report.add_argument("--output", type=Path, metavar="FILE", help="page to write (default: DIR/report.html)")
+
+    scores = _add(subs, "scores", commands.scores)
+    scores.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+
+    finding = _add(subs, "finding", commands.finding)
+    finding.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+
+
+def _asking(subs) -> None:  # type: ignore[no-untyped-def]
+    """Commands that tell what there is, and that give something to start from."""
+    ask = _add(subs, "list", commands.list_)
+    ask.add_argument(
+        "subject", nargs="?", default="", metavar="SUBJECT",
+        help="name of a benchmark, or benchmarks, faults, voters, detectors, campaigns, designs (default: everything)",
+    )  # fmt: skip
+    init = _add(subs, "init", commands.init)
+    init.add_argument("folder", type=Path, nargs="?", default=Path(), metavar="DIR", help="where to (default: here)")
+    names = "[--detector NAME | --benchmark NAME |\n                     --fault NAME | --campaign NAME]"
+    init.usage = f"fddbench init [-h] [DIR] {names}"  # argparse does not break a group
+    one = init.add_mutually_exclusive_group()
+    for what in ("detector", "benchmark", "fault", "campaign"):
+        one.add_argument(f"--{what}", metavar="NAME", help=f"a small {what} of your own, and a campaign that flies it")
+    _add(subs, "schema", commands.schema)
+    completion = _add(subs, "completion", completing.completion)
+    completion.add_argument("shell", choices=completing.SHELLS, help="bash, zsh or fish")
 
 
 def _campaign(command: argparse.ArgumentParser) -> None:
@@ -133,7 +164,11 @@ def _jobs(text: str) -> int:
 
 def main(argv: list[str] | None = None) -> int:
     """Run one command and return its exit code."""
-    args = parser().parse_args(argv)
+    top = parser()
+    args = top.parse_args(argv)
+    if "command" not in args:
+        top.print_help()
+        return 0
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")  # a file's name may hold what a terminal cannot print
@@ -175,6 +210,8 @@ def _say_in_words() -> None:
 
 def entry() -> None:
     """Entry point of the installed command."""
+    if "_ARGCOMPLETE" in os.environ:  # a shell asks for what may come next
+        completing.answer(parser())
     # what is freed goes back to the system: a tenth less memory for tables of many rows
     os.environ.setdefault("ARROW_DEFAULT_MEMORY_POOL", "system")
     sys.exit(main())

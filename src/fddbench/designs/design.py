@@ -20,7 +20,21 @@ from fddbench.interfaces import Bus, Detector
 from fddbench.kinds import Kind
 from fddbench.plugin_files import noticed_reads
 
-__all__ = ["Design", "read_design"]
+__all__ = ["Design", "SweptGain", "read_design"]
+
+
+@dataclass(frozen=True)
+class SweptGain:
+    """Which gain of a design a campaign has changed, and its value, or the factor on what the design says."""
+
+    key: str
+    value: float
+    factor: bool = False
+
+    @property
+    def column(self) -> str:
+        """Column of the rows that holds the value, ``gain_threshold_deg_s`` or ``factor_thresholds``."""
+        return f"{'factor' if self.factor else 'gain'}_{self.key}"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,7 +44,7 @@ class Design:
     Attributes
     ----------
     name : str
-        As campaigns and result columns call it; the file's name.
+        As campaigns and result columns call it: the file's name, of a variant ``DESIGN.KEY.1``.
     kind : Kind
         The class of the detector, registered or in a file beside the design.
     gains : BaseModel
@@ -51,6 +65,10 @@ class Design:
         What its recipe guarantees in the worst case [-].
     members : mapping of str to Kind
         Members of other families that its numbers name, by the key that names them.
+    written : mapping
+        Gains as the file writes them.
+    swept : SweptGain or None
+        Of a variant, what differs from the file.
     """
 
     name: str
@@ -66,6 +84,13 @@ class Design:
     where: str
     gamma: float | None = None
     members: Mapping[str, Kind] = field(default_factory=dict)
+    written: Mapping[str, Any] = field(default_factory=dict, repr=False)
+    swept: SweptGain | None = None
+
+    @property
+    def base(self) -> str:
+        """Name of the file's design, also of a variant."""
+        return self.path.stem
 
     def build(self, bus: Bus) -> Detector:
         """Detector for a bus.
@@ -133,6 +158,7 @@ def read_design(path: Path, *, where: str = "") -> Design:
         where=where,
         gamma=_gamma(written.recipe),
         members=members,
+        written=document.mapping("gains"),
     )
 
 

@@ -67,11 +67,7 @@ class SignalFaults:
 
     def _slot(self, number: int, faults: Sequence[Sequence[Fault]]) -> Slot:
         here = [one[number] for one in faults if number < len(one) and self._here(one[number])]
-        # a kind in two units is two classes of one name: those stay in the order of the scenarios, a set has none
-        found = dict.fromkeys(type(fault) for fault in here)
-        kinds = tuple(sorted(found, key=lambda kind: (kind.__module__, kind.__qualname__)))
-        freezes = any(fault.freeze for fault in here)
-        return Slot(number, kinds, self.positions, self.sample_s, freezes=freezes)
+        return Slot(number, here, self.positions, self.sample_s)
 
     def prepare(self, faults: FlightFaults) -> tuple[SlotConstants, ...]:
         """Constants of flights."""

@@ -5,6 +5,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from fddbench.blocks.layout import Layout, Rows, record
+from fddbench.faults.cycle import into_cycle, whole_samples
 from fddbench.faults.profile import constants_of
 from fddbench.faults.specification import Time, WithAmplitude
 from fddbench.interfaces import Floats, Instant, Site
@@ -42,9 +43,7 @@ class NrzBlock:
 
     def step(self, x: BitState, c: Bits, reading: Rows, now: Instant) -> tuple[BitState, Rows]:
         """What the sites show."""
-        # at least one: where the fault is not, its constants are zero
-        length = np.maximum(np.rint(c.bit_s / self.sample_s), 1.0)
-        begins = now.since_samples - length * np.floor(now.since_samples / length) == 0.0
+        begins = into_cycle(now.since_samples, whole_samples(c.bit_s, self.sample_s)) == 0.0
         bit = np.where(begins, np.where(now.random >= 0.0, 1.0, -1.0), x.bit)
         return BitState(bit=bit), reading + now.sign * (c.size * bit)
 

@@ -1,5 +1,6 @@
 """One stage of faults on the sites of one signal: a line of the scenarios, the kinds that a campaign uses there."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -59,29 +60,27 @@ class Slot:
     ----------
     slot : int
         Number of the slot: the place of the fault in its scenario.
-    kinds : tuple of fault classes
-        Those that scenarios use in this slot on these sites.
-    freezes : bool
-        Whether one of them freezes its signal.
+    faults : sequence of Fault
+        Those that scenarios have in this slot on these sites, as they are written.
     sites : tuple of int
         Positions of the sites in the benchmark; the first four have numbers of their own since the beginning.
     """
 
-    def __init__(
-        self, slot: int, kinds: tuple[type[Fault], ...], sites: tuple[int, ...], sample_s: float, *, freezes: bool
-    ) -> None:
+    def __init__(self, slot: int, faults: Sequence[Fault], sites: tuple[int, ...], sample_s: float) -> None:
         n = len(sites)
-        self.kinds, self.n_sites, self.sample_s, self.freezes = kinds, n, sample_s, freezes
-        self.blocks: tuple[FaultBlock, ...] = tuple(kind.block(n, sample_s) for kind in kinds)
+        self.kinds, self.n_sites, self.sample_s = _kinds_of(faults), n, sample_s
+        self.freezes = any(fault.freeze for fault in faults)
+        own = {kind: [fault for fault in faults if type(fault) is kind] for kind in self.kinds}
+        self.blocks: tuple[FaultBlock, ...] = tuple(kind.block_for(own[kind], n, sample_s) for kind in self.kinds)
         kept = tuple(block.states.shape for block in self.blocks)
-        self.states = Layout(SlotState(frozen=n if freezes else Nothing(), kinds=kept))
+        self.states = Layout(SlotState(frozen=n if self.freezes else Nothing(), kinds=kept))
         self.constants = Layout(
             SlotConstants(
                 first=n, last=n, sign=n, stands=n, freezes=n, held=n, independent=ROW, kind=ROW,
                 kinds=tuple(block.constants.shape for block in self.blocks),
             )
         )  # fmt: skip
-        self.random = any(kind.random for kind in kinds)
+        self.random = any(kind.random for kind in self.kinds)
         names: Any = Numbers(common=_draw(slot, 0), own=tuple(_draw(slot, site) for site in sites))
         self.draws: Draws[Any] = Draws(names if self.random else Nothing())
 
@@ -108,6 +107,7 @@ class Slot:
             active=active,
             sign=c.sign,
             random=np.where(c.independent > 0.0, np.stack(n.own), n.common) if self.random else None,
+            sample=sample,
             free=free,
         )
         frozen = self._frozen(x, signal, before, since, sample)
@@ -134,6 +134,12 @@ class Slot:
     def nothing(self) -> SlotConstants:
         """Constants of a flight without a fault in this slot."""
         return replace(mapped(lambda _: 0.0, self.constants.shape), first=NEVER)
+
+
+def _kinds_of(faults: Sequence[Fault]) -> tuple[type[Fault], ...]:
+    # a kind in two units is two classes of one name: those stay in the order of the scenarios, a set has none
+    found = dict.fromkeys(type(fault) for fault in faults)
+    return tuple(sorted(found, key=lambda kind: (kind.__module__, kind.__qualname__)))
 
 
 def _draw(slot: int, site: int) -> Draw:

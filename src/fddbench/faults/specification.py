@@ -5,7 +5,7 @@ its sites, ``amplitude_deg_s`` or plain ``amplitude``: `FaultSpecification.in_un
 key of another unit is an unknown key.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from typing import Annotated, Any, ClassVar, Literal, Self
 
@@ -84,6 +84,10 @@ class FaultSpecification(BaseModel):
     """What is added to the signal, for kinds that need no block of their own."""
     lengths: ClassVar[tuple[str, ...]] = ()
     """Keys of times besides those that all faults have, which last at least a sample."""
+    files: ClassVar[tuple[str, ...]] = ()
+    """Keys that name files beside the campaign; `with_files` is given what they hold."""
+    unit_name: ClassVar[str] = "deg/s"
+    """Unit of the sites in which its sizes are written."""
 
     kind: str
     mode: Literal["add", "replace"] = "add"
@@ -135,6 +139,17 @@ class FaultSpecification(BaseModel):
         """Copy with numbers or (n_cases,) arrays in place of what varies, by the names of the fields."""
         return self.model_copy(update=dict(values)) if values else self
 
+    def with_files(self, contents: Mapping[str, bytes]) -> Self:
+        """Copy that has read its files, by the keys that name them; a kind that has any brings its own.
+
+        Raises
+        ------
+        FddbenchError
+            With what is wrong in a file.
+        """
+        del contents
+        return self
+
     def unfit(self, sample_s: float) -> Iterator[tuple[str, str]]:
         """Key and message of every number that a clock of `sample_s` cannot show; a kind may add its own."""
         for key in ("onset_s", "end_s", "delay_s"):
@@ -182,6 +197,12 @@ class FaultSpecification(BaseModel):
             raise FddbenchError(f"the fault {cls.__name__} has neither a profile nor a block of its own")
         return ProfileBlock(cls.profile, n_sites, sample_s)
 
+    @classmethod
+    def block_for(cls, faults: Sequence[Self], n_sites: int, sample_s: float) -> FaultBlock:
+        """`block` for these faults of the kind, as they are written; one whose size depends on them brings its own."""
+        del faults
+        return cls.block(n_sites, sample_s)
+
 
 class WithAmplitude(FaultSpecification):
     """A fault whose size is an amplitude, of the admissible range [%] or in the unit of the sites; give one.
@@ -202,5 +223,5 @@ def _in_unit(kind: type[FaultSpecification], name: str) -> type[FaultSpecificati
     if name == "deg/s":
         return kind
     config = ConfigDict(alias_generator=unit(name).key)
-    namespace = {"model_config": config, "__module__": kind.__module__, "__doc__": kind.__doc__}
+    namespace = {"model_config": config, "unit_name": name, "__module__": kind.__module__, "__doc__": kind.__doc__}
     return type(kind.__name__, (kind,), namespace)

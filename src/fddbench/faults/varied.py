@@ -107,12 +107,15 @@ class Number:
         Smallest number, or the number that it must exceed; largest number.
     time : bool
         A time: on the clock, so only ``uniform`` and ``grid`` can vary it.
+    whole : bool
+        A count: whole numbers, so only ``grid`` can vary it.
     """
 
     ge: float | None = None
     gt: float | None = None
     le: float | None = None
     time: bool = False
+    whole: bool = False
 
     def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> core_schema.CoreSchema:
         """Validate a number as pydantic does, a mapping as `Varied`."""
@@ -131,7 +134,11 @@ class Number:
         if isinstance(value, dict):
             value = Varied.model_validate_json(json.dumps(value), strict=True)
         if not isinstance(value, Varied):
-            return number(value)
+            return self._counted(number(value))
+        if self.whole and value.name != "grid":
+            raise ValueError(f"{value.name} cannot draw a whole number; use grid: [1, 2]")
+        for each in value.written if self.whole else ():
+            self._counted(each)
         if self.time and value.name not in ("uniform", "grid"):
             raise ValueError(
                 f"{value.name} cannot draw a time: it must be bounded; use uniform: [a, b] or grid: [a, b]"
@@ -145,6 +152,11 @@ class Number:
         for limit, end in ((text, end) for text, end, missed in limits if missed):
             found = "a bell curve draws any number; use uniform or log_uniform" if value.normal else f"got {end:g}"
             raise ValueError(f"{value.name} must stay {limit}, {found}")
+        return value
+
+    def _counted(self, value: float) -> float:
+        if self.whole and not value.is_integer():
+            raise ValueError(f"need a whole number, got {value:g}")
         return value
 
 

@@ -61,6 +61,8 @@ class Choice:
     reads : callable, optional
         Makes an option of a YAML file beside the campaign that is named instead (``plant: mine.yaml``), from its path; raises
         FddbenchError for one that is none. None: files of data are nothing to choose here.
+    says : mapping of str to str
+        What each option is, for those that do not say so themselves (by an ``about``).
     """
 
     about: str
@@ -68,6 +70,7 @@ class Choice:
     family: str = ""
     needs: Sequence[str] = ()
     reads: Callable[[Path], Any] | None = None
+    says: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -154,6 +157,8 @@ class Benchmark(Protocol):
 
     `choices` are the keys by which a campaign chooses; `shown` names the signals in the pictures of the report, `limits_from`
     says where the time limits come from.
+
+    ``fddbench list`` draws of each manoeuvre what it commands: signals named so, and those in ``commands`` (none).
 
     For the report it may have more, and has these otherwise: ``envelope_axes``, pairs of parameters that belong on the two
     axes of a picture (none); ``published``, the printed table that stands beside its results unless a campaign names another,

@@ -46,8 +46,9 @@ class Detector(Protocol):
 
     It may have more, and has these otherwise: ``recorded``, the names of what its verdicts show (()); ``watches``, the names
     of the sites it declares (all sites of the bus); ``isolates`` (True; False for one that only detects); ``estimates``, what
-    `Verdict.estimate` is of (None: it gives none): "sites", or the name of a voted signal; ``constants`` and ``draws`` (none):
-    a detector that has them is a full block, with ``start(c)`` and ``step(x, c, n, measured)``.
+    `Verdict.estimate` is of (None: it gives none): "sites", or the name of a voted signal; ``sees`` ("sensors"; "voted" for one
+    that looks at the voted signal and not at the sensors it is made of, and is not ranked with those that do); ``constants``
+    and ``draws`` (none): a detector that has them is a full block, with ``start(c)`` and ``step(x, c, n, measured)``.
 
     **Rows.** With ``states``, a `Layout`, a step is a function on rows that is compiled, see `fddbench.interfaces`.
 

@@ -1,8 +1,9 @@
 """What a kind of fault must offer."""
 
+from collections.abc import Sequence
 from typing import Any, ClassVar, Protocol
 
-from fddbench.blocks.layout import Layout, Rows, record
+from fddbench.blocks.layout import Layout, Row, Rows, record
 from fddbench.interfaces.floats import Floats
 from fddbench.interfaces.site import Site
 
@@ -26,6 +27,8 @@ class Instant:
     random : rows or None
         A standard normal number a site, the same on all sites unless the fault is independent; None unless the kind is
         `random`.
+    sample : row
+        Number of the sample since the start of the flight, the same for all sites and flights.
     free : rows or None
         What the sites would show if they floated, in their unit; None where the loop has no site that floats.
     """
@@ -35,6 +38,7 @@ class Instant:
     active: Rows
     sign: Rows
     random: Rows
+    sample: Row
     free: Rows = None
 
 
@@ -120,6 +124,6 @@ class Fault(Protocol):
         ...
 
     @classmethod
-    def block(cls, n_sites: int, sample_s: float) -> FaultBlock:
-        """What flies of this kind on so many sites."""
+    def block_for(cls, faults: Sequence[Any], n_sites: int, sample_s: float) -> FaultBlock:
+        """What flies of these faults of this kind, as they are written, on so many sites."""
         ...

@@ -93,14 +93,22 @@ EVENTS = pa.schema(
 )
 
 
-def rows_schema(parameters: Sequence[str], varied: Sequence[str] = ()) -> pa.Schema:
+def rows_schema(parameters: Sequence[str], varied: Sequence[str] = (), gains: Sequence[str] = ()) -> pa.Schema:
     """Schema of the rows of a benchmark with these parameters (columns ``p_<name>``).
 
-    `varied` are the columns of what differs between the faults of flights, ``f1_amplitude_percent``.
+    `varied` are the columns of what differs between the faults of flights, ``f1_amplitude_percent``; `gains` those of gains of
+    detectors that are swept, ``gain_threshold_deg_s``, and of factors on gains, ``factor_thresholds``.
     """
     faults = [_column(name, pa.float64(), _of_fault(name)) for name in varied]
     own = [_column(f"p_{name}", pa.float64(), "true value of the parameter", nullable=False) for name in parameters]
-    return pa.schema([*_WHO, *_SCORES, *faults, *own], metadata={"fddbench_schema": SCHEMA_VERSION})
+    swept = [_column(name, pa.float64(), _of_gain(name)) for name in gains]
+    return pa.schema([*_WHO, *_SCORES, *swept, *faults, *own], metadata={"fddbench_schema": SCHEMA_VERSION})
+
+
+def _of_gain(column: str) -> str:
+    what, _, key = column.partition("_")
+    value = f"factor on {key} [-]" if what == "factor" else key
+    return f"{value} of this detector, a gain that the campaign sweeps; null: as its design says"
 
 
 def _of_fault(column: str) -> str:

@@ -88,7 +88,7 @@ def rows_and_events(flyer: Flyer, cases: Cases) -> tuple[pa.Table, pa.Table]:
     able = np.array([reason == "" for reason in batch.infeasible_reason], dtype=bool)
     flown, grounded = batch.take(np.flatnonzero(able)), batch.take(np.flatnonzero(~able))
     outcome = flyer.fly(flown) if able.any() else None
-    schema = rows_schema([parameter.name for parameter in assembly.plan.plant.parameters], assembly.plan.columns)
+    schema = _schema(assembly)
     parts: list[pa.Table] = []
     events = [EVENTS.empty_table()]
     order: list[Cases] = []
@@ -104,9 +104,15 @@ def rows_and_events(flyer: Flyer, cases: Cases) -> tuple[pa.Table, pa.Table]:
     return rows.take(pa.array(in_order)).combine_chunks(), pa.concat_tables(events).combine_chunks()
 
 
+def _schema(assembly: Assembly) -> pa.Schema:
+    """Schema of the rows of a campaign."""
+    plan = assembly.plan
+    return rows_schema([parameter.name for parameter in plan.plant.parameters], plan.columns, plan.gain_columns)
+
+
 def rows_of(assembly: Assembly, batch: Batch, outcome: Outcome | None, detector: str) -> pa.Table:
     """Rows of one detector on a batch."""
-    schema = rows_schema([parameter.name for parameter in assembly.plan.plant.parameters], assembly.plan.columns)
+    schema = _schema(assembly)
     return pa.Table.from_pydict(_columns(assembly, batch, outcome, detector), schema=schema)
 
 
@@ -141,9 +147,17 @@ def _who(assembly: Assembly, batch: Batch, detector: str) -> Columns:
     }
     columns = {name: pa.array(known, pa.string()).take(where) for name, known in texts.items()}
     columns |= {name: pa.array(getattr(batch, name)) for name in ("point", "level", "run")}
+    columns |= _swept(assembly, detector, len(batch.cases))
     flown = batch.faults.numbers.items()
     columns |= {name: pa.array(values, mask=np.isnan(values)) for name, values in flown}
     return columns | {f"p_{name}": pa.array(values) for name, values in batch.parameters.items()}
+
+
+def _swept(assembly: Assembly, detector: str, n_cases: int) -> Columns:
+    """Columns of the gains that the campaign sweeps: of one detector only its own has a value."""
+    swept = {each.name: each.swept for each in assembly.plan.campaign.designs}.get(detector)
+    own = {swept.column: swept.value} if swept else {}
+    return {name: pa.repeat(pa.scalar(own.get(name), pa.float64()), n_cases) for name in assembly.plan.gain_columns}
 
 
 def _events(

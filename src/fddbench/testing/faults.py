@@ -29,7 +29,7 @@ def check_fault(name: str, sizes: Mapping[str, Any], *, beside: str | Path = "."
     sizes : mapping
         Its keys as a campaign writes them, e.g. ``{"amplitude_deg_s": 1.0}``.
     beside : str or Path
-        Folder of that file.
+        Folder of that file, and of files that its keys name.
     unit : str
         Unit of the sites.
 
@@ -47,6 +47,8 @@ def check_fault(name: str, sizes: Mapping[str, Any], *, beside: str | Path = "."
     model = kinds.find("fault", name, beside=Path(beside)).member.in_unit(unit)
     common = {"kind": name, "sites": ["s1", "s2"], "onset_s": _ONSET * _SAMPLE_S, "end_s": _END * _SAMPLE_S}
     fault = model.model_validate({**common, **sizes})
+    if fault.files:
+        fault = fault.with_files({key: (Path(beside) / getattr(fault, key)).read_bytes() for key in fault.files})
     sites = tuple(
         Site(name=f"s{j + 1}", signal="s", row=j, unit_name=unit, admissible=40.0, stops=(-1e3, 1e3), floats=True)
         for j in range(3)

@@ -243,7 +243,7 @@ def test_choices_and_their_defaults(bench):
     assert found == {
         "plant": ("lateral_lpv", "transport_6dof"),
         "voter": ("median", "closest_two"),
-        "sensors": ("white", "ideal"),
+        "sensors": ("white", "ideal", "iru"),
         "wind": ("none", "light", "moderate", "severe", "one_minus_cosine"),
     }
     chosen = default_choices(bench.benchmark)

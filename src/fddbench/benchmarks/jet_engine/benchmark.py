@@ -21,7 +21,18 @@ class JetEngine(SinglePlant):
 
     name = "jet_engine"
     about = "linear jet engine with uncertain dynamics, three disturbances and three additive faults"
-    choices: Mapping[str, Choice] = {"plant": Choice(about="which engines: the set of Δ", options=SETS)}
+    choices: Mapping[str, Choice] = {
+        "plant": Choice(
+            about="which engines: the set of Δ",
+            options=SETS,
+            says={
+                "norm_bounded": "Δ uniform in the ball of spectral norm one",
+                "boundary": "Δ on its surface: every singular value is one",
+                "structured": "diagonal Δ, each entry uniform in (-1, 1)",
+                "equation_79": "the one Δ that the paper prints, its eq. (79)",
+            },
+        )
+    }
     sites = tuple(
         Site(
             name=f"f{row + 1}",
@@ -41,6 +52,7 @@ class JetEngine(SinglePlant):
         Parameter(name="disturbance_scale_ratio", about="share of the disturbances", default=1.0, low=0.0, high=10.0),
     )
     manoeuvres: Mapping[str, float] = DURATIONS_S
+    commands = ("u_1", "u_2", "u_3")
     shown: tuple[str, ...] = ("f_true_1", "f_true_2", "f_true_3")
     limits_from = "our choice: 5 s for each fault"
     iterations = "robust_hinf_table1"

@@ -6,6 +6,7 @@ from math import prod
 from fddbench.campaign.reading.document import Document
 from fddbench.campaign.rules.model import CampaignFile
 from fddbench.campaign.rules.ranges import ranges
+from fddbench.campaign.rules.swept import names_of
 from fddbench.campaign.rules.times import MOST_LEVELS, times
 from fddbench.campaign.sampling import point_radices
 from fddbench.campaign.streams import scenario_stream
@@ -29,6 +30,7 @@ def inconsistencies(
     """Every contradiction in a campaign whose keys and names are right."""
     yield from _reconfigured(document, written)
     yield from _shown(document, written)
+    yield from _detectors_twice(document, written)
     yield from _repeated(document, [entry.name for entry in written.scenarios])
     yield from _too_many(document, written, faults)
     yield from ranges(document, written, plant)
@@ -41,7 +43,7 @@ def inconsistencies(
 
 def _reconfigured(document: Document, written: CampaignFile) -> Iterator[Mistake]:
     """What is wrong with the detector on which the aircraft acts."""
-    name, known = written.reconfigure, written.detectors
+    name, known = written.reconfigure, written.detector_names
     if name is None:
         return
     if name not in known:
@@ -74,10 +76,19 @@ def _repeated(document: Document, scenarios: list[str]) -> Iterator[Mistake]:
         elif other != name:
             message = f"the names {other!r} and {name!r} give the same random numbers by chance; change one"
             yield document.mistake(("scenarios", number, "name"), message)
-    designs = document.items("detectors")
-    for number, name in enumerate(designs):
-        if name in designs[:number]:
-            yield document.mistake(("detectors", number), f"design {name!r} is listed twice; list it once")
+
+
+def _detectors_twice(document: Document, written: CampaignFile) -> Iterator[Mistake]:
+    """Detectors of one name: a design that is listed twice, a gain that is swept twice, or a design called as a variant."""
+    known: set[str] = set()
+    for number, entry in enumerate(written.detectors):
+        names = names_of((entry,))
+        for name in [name for name in names if name in known][:1]:
+            message = f"a second detector called {name!r}; sweep each gain once, and rename a design of that name"
+            if isinstance(entry, str) and entry in written.detectors[:number]:
+                message = f"design {name!r} is listed twice; list it once"
+            yield document.mistake(("detectors", number), message)
+        known |= set(names)
 
 
 def _too_many(document: Document, written: CampaignFile, faults: Faults) -> Iterator[Mistake]:

@@ -19,7 +19,9 @@ from fddbench.interfaces import Site
 __all__ = ["ReadFaults", "read_faults"]
 
 _WORD = re.compile(r"([A-Z])")
-_SIZES = ("amplitude", "rate", "variance", "hold_value")
+_SIZES = ("amplitude", "rate", "variance", "hold_value", "quantum")
+_LARGEST = 200_000_000
+"""Bytes of a file beside the campaign that is carried along."""
 
 
 @dataclass
@@ -73,7 +75,11 @@ def _read_fault(
     except (Exception, SystemExit) as error:  # a kind of somebody else's may raise anything
         found.mistakes.append(document.mistake(address, f"the fault {kind!r} cannot be read: {reason_of(error)}"))
         return None
-    if len(units) > 1 and any(getattr(fault, size, None) is not None for size in _SIZES):
+    wrong, fault = _with_files(document, address, fault, folder, found)
+    if wrong:
+        found.mistakes += wrong
+        return None
+    if len(units) > 1 and (fault.files or any(getattr(fault, size, None) is not None for size in _SIZES)):
         message = (
             f"the sites {', '.join(fault.sites)} have different units ({', '.join(units)}): give sizes in percent, or a "
             "fault for each unit"
@@ -81,6 +87,30 @@ def _read_fault(
         found.mistakes.append(document.mistake((*address, "sites"), message))
     found.mistakes += _unfit_sites(document, address, fault, sites)
     return fault
+
+
+def _with_files(
+    document: Document, address: Address, fault: FaultSpecification, folder: Path, found: ReadFaults
+) -> tuple[list[Mistake], FaultSpecification]:
+    """What is wrong with the files that a fault names, and the fault that has read them; they travel with the campaign."""
+    contents: dict[str, bytes] = {}
+    for key in fault.files:
+        name = str(getattr(fault, key))
+        path = folder / name
+        inside = path.is_file() and path.resolve().is_relative_to(folder.resolve())
+        if not inside or path.stat().st_size > _LARGEST:
+            wrong = f"larger than {_LARGEST / 1e6:g} MB; it cannot travel with the results" if inside else ""
+            message = f"{path} is {wrong}" if wrong else f"no file {name} in {folder}; put it beside the campaign"
+            return [document.mistake((*address, key), message)], fault
+        contents[key] = path.read_bytes()
+        found.files[name] = contents[key]
+    try:
+        return [], fault.with_files(contents) if contents else fault
+    except FddbenchError as error:
+        return [document.mistake((*address, fault.files[0]), str(error))], fault
+    except (Exception, SystemExit) as error:  # a kind of somebody else's may raise anything
+        message = f"the files of the fault {fault.kind!r} cannot be read: {reason_of(error)}"
+        return [document.mistake((*address, fault.files[0]), message)], fault
 
 
 def _unfit_sites(

@@ -15,7 +15,7 @@ from fddbench.faults.varied import Number, Varied
 __all__ = ["allowed_keys", "mistakes_of"]
 
 
-_TAGS = ("name", "matrices")
+_TAGS = ("name", "matrices", "swept", "values", "sweep")
 """Names that models give the members of their unions."""
 
 

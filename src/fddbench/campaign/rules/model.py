@@ -5,9 +5,12 @@ from typing import Annotated, Any, Literal, get_type_hints
 
 from pydantic import BaseModel, ConfigDict, Field, create_model
 
+from fddbench.campaign.rules.keys import NAME_PATTERN, Count, Name, Number, Positive, Seed, Strict, Values
+from fddbench.campaign.rules.swept import DetectorEntry, names_of
 from fddbench.errors import FddbenchError
 
 __all__ = [
+    "NAME_PATTERN",
     "CampaignFile",
     "Dispersions",
     "Distribution",
@@ -17,28 +20,17 @@ __all__ = [
     "Purpose",
     "ReportEntry",
     "ScenarioEntry",
+    "Seed",
+    "Strict",
     "TruncatedNormal",
     "campaign_file",
 ]
 
-NAME_PATTERN = "^[A-Za-z0-9][A-Za-z0-9._-]{0,63}$"
 LONGEST_FLIGHT_S = 86_400.0
 MOST_FAULTS = 8
 
-Name = Annotated[str, Field(pattern=NAME_PATTERN)]
-Number = Annotated[float, Field(allow_inf_nan=False)]
-Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 Duration = Annotated[float, Field(gt=0.0, le=LONGEST_FLIGHT_S)]
-Count = Annotated[int, Field(ge=1)]
-Seed = Annotated[int, Field(ge=0, le=2**64 - 1)]
-Values = Annotated[tuple[Number, ...], Field(min_length=1)]
 Purpose = Literal["tuning", "evaluation"]
-
-
-class Strict(BaseModel):
-    """Refuses unknown keys, and words where numbers belong."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
 
 
 class Normal(Strict):
@@ -116,8 +108,8 @@ class Dispersions(Strict):
         Drawn at random.
     """
 
-    grid: dict[str, Values] = {}
-    sequence: dict[str, Values] = {}
+    grid: dict[str, Values] = Field(default_factory=dict)
+    sequence: dict[str, Values] = Field(default_factory=dict)
     monte_carlo: MonteCarlo | None = None
 
 
@@ -174,8 +166,8 @@ class CampaignFile(Strict):
         Integration steps in a sample.
     duration_s : float
         Length of every flight [s]; a scenario may say otherwise.
-    detectors : tuple of str
-        Names of designs, files in ``detectors/``.
+    detectors : tuple of str or SweptDesign
+        Names of designs, files in ``detectors/``; or a design and gains to sweep, ``{design: NAME, sweep: {KEY: [1, 2]}}``.
     reconfigure : str
         One of these detectors, if the aircraft is to act on what it declares: at every sample on its declarations of the
         sample before. Nobody else's declarations, and no other detector in the list, have a part in the flight.
@@ -193,9 +185,14 @@ class CampaignFile(Strict):
     duration_s: Duration | None = None
     scenarios: Annotated[tuple[ScenarioEntry, ...], Field(min_length=1)]
     dispersions: Dispersions = Dispersions()
-    detectors: Annotated[tuple[Name, ...], Field(min_length=1)]
+    detectors: Annotated[tuple[DetectorEntry, ...], Field(min_length=1)]
     reconfigure: Name | None = None
     report: ReportEntry = ReportEntry()
+
+    @property
+    def detector_names(self) -> tuple[str, ...]:
+        """Names of all its detectors, in order."""
+        return names_of(self.detectors)
 
 
 @cache

@@ -104,7 +104,7 @@ class LateralLpvPlant:
     def loop(cls, options: Options) -> LateralLoop:
         """The loop it flies in."""
         chosen, plant = options.chosen, cls(options.sample_s, options.substeps)
-        return LateralLoop(plant, plant.sites, chosen["voter"](), chosen["sensors"], chosen["wind"], options)
+        return LateralLoop(plant, plant.sites, chosen["voter"], chosen["sensors"], chosen["wind"], options)
 
     def actuators(self) -> Actuators:
         """Actuators of the 13 surfaces."""

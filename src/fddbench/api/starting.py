@@ -1,0 +1,87 @@
+"""Small files to start from, written for a name of one's own; they fly at once."""
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from shutil import copyfile
+
+from fddbench import gallery
+from fddbench.errors import FddbenchError
+
+__all__ = ["STARTERS", "copy_shipped", "start"]
+
+STARTERS: Mapping[str, Mapping[str, str]] = {
+    "detector": {
+        "detectors/NAME.py": "detector.py.txt",
+        "detectors/NAME.yaml": "design.yaml.txt",
+        "campaigns/NAME.yaml": "detector_campaign.yaml.txt",
+    },
+    "benchmark": {
+        "campaigns/NAME.py": "benchmark.py.txt",
+        "detectors/NAME_difference.py": "benchmark_detector.py.txt",
+        "detectors/NAME_difference.yaml": "benchmark_design.yaml.txt",
+        "campaigns/NAME.yaml": "benchmark_campaign.yaml.txt",
+    },
+    "fault": {"campaigns/NAME.py": "fault.py.txt", "campaigns/NAME.yaml": "fault_campaign.yaml.txt"},
+    "campaign": {"campaigns/NAME.yaml": "campaign.yaml.txt"},
+}
+"""What is started → file to write → what it is made of; NAME stands for the name and CLASS for the name of its class."""
+
+_NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
+
+
+def start(folder: Path, what: str, name: str) -> list[Path]:
+    """Write the files of a new detector, benchmark, fault or campaign; the last one is its campaign.
+
+    Raises
+    ------
+    FddbenchError
+        The name is none, or a file is there already; then nothing is written.
+    """
+    if not _NAME.fullmatch(name):
+        raise FddbenchError(
+            f"{name!r} is no name for a {what}: small letters, digits and _, a letter first, at most 40, as in "
+            f"my_{what}"
+        )
+    if what == "detector" and (gallery.folder("detectors") / f"{name}.yaml").is_file():
+        raise FddbenchError(
+            f"a shipped design is called {name!r}; choose another name, so that nobody takes one for the other"
+        )
+    texts = {folder / path.replace("NAME", name): _text(source, name) for path, source in STARTERS[what].items()}
+    there = [str(path) for path in texts if path.exists()]
+    if there:
+        raise FddbenchError(f"{', '.join(there)} is there already and is left alone; choose another name or folder")
+    try:
+        for path, text in texts.items():
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise FddbenchError(f"cannot write into {folder}: {error.strerror}; name another folder") from error
+    return list(texts)
+
+
+def _text(source: str, name: str) -> str:
+    text = (Path(__file__).parents[1] / "starters" / source).read_text(encoding="utf-8")
+    return text.replace("NAME", name).replace("CLASS", "".join(part.capitalize() for part in name.split("_")) or "Own")
+
+
+def copy_shipped(folder: Path) -> list[Path]:
+    """Copy the shipped campaigns and designs; what is there already is left alone.
+
+    Raises
+    ------
+    FddbenchError
+        The folder cannot be written.
+    """
+    written = []
+    for name in ("campaigns", "detectors"):
+        target = folder / name
+        try:
+            target.mkdir(parents=True, exist_ok=True)
+            for path in sorted(gallery.folder(name).iterdir()):
+                if path.is_file() and not (target / path.name).exists():
+                    copyfile(path, target / path.name)
+                    written.append(target / path.name)
+        except OSError as error:
+            raise FddbenchError(f"cannot write into {target}: {error.strerror}; name another folder") from error
+    return written

@@ -1,0 +1,7 @@
+"""Prediction of the yaw rate by the yaw-moment equation alone, for detectors to compare sensors with."""
+
+from fddbench.detection.yaw_moment.equation import NEEDS, YawAcceleration, YawMoment
+from fddbench.detection.yaw_moment.filter import YawMomentFilter, YawMomentState
+from fddbench.detection.yaw_moment.gains import YawMomentGains
+
+__all__ = ["NEEDS", "YawAcceleration", "YawMoment", "YawMomentFilter", "YawMomentGains", "YawMomentState"]
