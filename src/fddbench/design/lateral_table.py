@@ -1,4 +1,4 @@
-"""Yaw and sideward acceleration of an aircraft as polynomials of its flight condition: what monitors of the yaw rate are scheduled on."""
+"""Yaw and sideward acceleration of an aircraft as polynomials of its flight condition."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -47,9 +47,7 @@ def lpv_table(model: LateralLpv) -> Fitted:
     """
     A, B = model.tables["A"][..., 0], model.tables["B"][..., 0]
     controls = np.stack([B[:, :, first] for first, _ in _SIGNS], axis=2)
-    again = np.concatenate(
-        [controls[:, :, [j]] * np.array(signs) for j, (_, signs) in enumerate(_SIGNS)], axis=2
-    )
+    again = np.concatenate([controls[:, :, [j]] * np.array(signs) for j, (_, signs) in enumerate(_SIGNS)], axis=2)
     if not np.allclose(again[:, [1, 3]], B[:, [1, 3]], rtol=0.0, atol=1e-12):
         raise DesignError("recipe.aircraft: surfaces of a pair must act against each other, spoilers alike")
     n = len(SCHEDULING)
@@ -82,7 +80,9 @@ def accelerations(aircraft: Aircraft, condition: Floats) -> tuple[Floats, Floats
     return np.concatenate([A[3, 1:], B[3]]), np.concatenate([A[1], B[1]])
 
 
-def transport_table(aircraft: Aircraft, envelope: Mapping[str, tuple[float, float]], degree: int, points: int) -> Fitted:
+def transport_table(
+    aircraft: Aircraft, envelope: Mapping[str, tuple[float, float]], degree: int, points: int
+) -> Fitted:
     """Polynomials of a total degree through an aircraft linearised at trims spread evenly over an envelope.
 
     Terms that hardly count are left out and the others fitted again.

@@ -1,7 +1,7 @@
 """The keys of a recipe that makes a `yaw_rate_best`, and the gains that they give."""
 
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field, model_validator

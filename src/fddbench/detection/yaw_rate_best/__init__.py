@@ -1,4 +1,4 @@
-"""Our own monitor of three yaw-rate sensors: what would the aircraft have done if this sensor told the truth?"""
+"""Our own monitor of three yaw-rate sensors: each is believed in turn, and the motion of the aircraft is the judge."""
 
 from fddbench.detection.yaw_rate_best.detector import YawRateBest
 

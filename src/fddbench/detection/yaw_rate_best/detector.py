@@ -40,40 +40,40 @@ class YawRateBestState:
 class YawRateBest:
     """Declares every sensor that the motion of the aircraft contradicts, for good; a later one may be added.
 
-    **Idea.** Two faulty sensors that agree win every vote, so sensors must be compared with the aircraft, not with each other.
-    Of three sensors three hypotheses are kept, "this one tells the truth", each a *witness*: two small Kalman filters fed by
-    this sensor alone. One holds the yaw moment against it, ``r' = N_v V beta + N_p p + N_r r + N_u u + a``, where the vane
-    measures the very air that turns the aircraft, so a gust is no surprise; a is what the model does not know, and is forgotten
-    in seconds. The other holds the side force against it: where the nose goes, the path must follow the bank angle,
+    **Idea.** Two faulty sensors that agree win every vote, so sensors must be compared with the aircraft, not with each
+    other. Of three sensors three hypotheses are kept, "this one tells the truth", each a *witness*: two small Kalman filters
+    fed by this sensor alone. One holds the yaw moment against it, ``r' = N_v V beta + N_p p + N_r r + N_u u + a``, where the
+    vane measures the very air that turns the aircraft, so a gust is no surprise; a is what the model does not know, and is
+    forgotten in seconds. The other holds the side force against it: where the nose goes, the path must follow the bank angle,
     ``(v/V)' = g phi / V - r + ... + d``, and the vane shows path less gust. A slow ramp of 0.05 deg/s^2 hides in a, but not
-    for long in the second: it would fly a turn that no bank angle explains. d hardly changes and takes in biases of gyros, vane
-    and bank angle, so that no bias needs to be known.
+    for long in the second: it would fly a turn that no bank angle explains. d hardly changes and takes in biases of gyros,
+    vane and bank angle, so that no bias needs to be known.
 
-    **Decision.** While the sensors differ by more than healthy ones do (offsets between them are learned), each witness sums its
-    squared innovations, smoothed and divided by their level in this air; half of a difference of two sums is a log-likelihood
-    ratio. What air and model do wrong is the same for all three and drops out but for what points along the fault. A sensor is
+    **Decision.** While the sensors differ by more than healthy ones do (offsets are learned), each witness sums its squared
+    innovations, smoothed and divided by their level in this air; half of a difference of two sums is a log-likelihood ratio.
+    What air and model do wrong is the same for all three and drops out but for what points along the fault. A sensor is
     declared when its sum exceeds that of the best witness by `evidence_one`, two at once by `evidence_two`, and by a share
-    (`contrast`) of what so large a difference could have brought. No timer, no vote; shape, size and sign of the fault are free,
-    so opposite pairs, oscillations and freezes are nothing special. Sensor errors, mirror images and the names of sensors are
-    treated alike. The estimate is the voted signal less the mean of the sensors that are not declared.
+    (`contrast`) of what so large a difference could have brought. No timer, no vote; shape, size and sign of the fault are
+    free, so opposite pairs, oscillations and freezes are nothing special, and all sensors are treated alike. The estimate is
+    the voted signal less the mean of the sensors that are not declared.
 
-    **Model assumed.** The table of the design: rigid aircraft, small sideslip, measured mass, X_cg, altitude and airspeed 10 %
-    wrong are in order. **Blind** to what leaves the sensors equal (three frozen in cruise), to faults below `differ_deg_s`, and
-    for as long as an aircraft model can be as wrong as the fault is large: an oscillation that starts at phase 0 has moved
-    0.05 deg/s after 0.36 s. **Noisy** where the air turns the aircraft past the vane (gust gradients) and where incidence or
-    speed leave the table. **Knobs:** the two evidences (``fddbench tune``) trade time for wrong sites; floors say how far the
-    model is trusted in calm air, `level_ratio` in rough air; the unknown acceleration of the recipe decides how long the moment
-    equation remembers, the unknown turn rate how slow a ramp may be. **Cost:** 440 operations a sample on the published model,
-    580 on the twin-jet, where the published scheme has 867.
+    **Model assumed.** The table of the design: rigid aircraft, small sideslip, measured mass, X_cg, altitude and airspeed 10
+    % wrong are in order. **Blind** to what leaves the sensors equal (three frozen in cruise), to faults below `differ_deg_s`,
+    and for as long as an aircraft model can be as wrong as the fault is large: an oscillation that starts at phase 0 has
+    moved 0.05 deg/s after 0.36 s. **Noisy** where the air turns the aircraft past the vane (gust gradients) and where
+    incidence or speed leave the table. **Knobs:** the two evidences (``fddbench tune``) trade time for wrong sites; floors
+    say how far the model is trusted in calm air, `level_ratio` in rough air; the unknown acceleration of the recipe decides
+    how long the moment equation remembers, the unknown turn rate how slow a ramp may be. **Cost:** 440 operations a sample on
+    the published model, 580 on the twin-jet, where the published scheme has 867.
 
     References
     ----------
     Deckert, Desai, Deyst, Willsky (1977), F-8 DFBW sensor failure identification using analytic redundancy, IEEE Transactions
     on Automatic Control 22(5), 795-803: like sensors that differ start likelihood ratios on the equations of motion.
     Magill (1965), Optimal adaptive estimation of sampled stochastic processes, IEEE Transactions on Automatic Control 10(4),
-    434-439: hypotheses as a bank of filters. Willsky, Jones (1976), A generalized likelihood ratio approach to the detection and
-    estimation of jumps in linear systems, IEEE Transactions on Automatic Control 21(1), 108-112. The complementary use of moment
-    and force equation, levels and contrast are ours.
+    434-439: hypotheses as a bank of filters. Willsky, Jones (1976), A generalized likelihood ratio approach to the detection
+    and estimation of jumps in linear systems, IEEE Transactions on Automatic Control 21(1), 108-112. The complementary use of
+    moment and force equation, levels and contrast are ours.
 
     Examples
     --------

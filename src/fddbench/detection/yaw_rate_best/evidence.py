@@ -54,9 +54,7 @@ class Evidence:
         """None."""
         return EvidenceState(level_rate=0.0, level_slip=0.0, against=0.0, possible=0.0)
 
-    def step(
-        self, x: EvidenceState, e: Innovations, declared: Rows, gathering: Row
-    ) -> tuple[EvidenceState, Judgement]:
+    def step(self, x: EvidenceState, e: Innovations, declared: Rows, gathering: Row) -> tuple[EvidenceState, Judgement]:
         """State at the next sample, and the judgement of this one; `gathering` says whether sensors lately differed."""
         g = self.gains
         rate, slip = e.rate * e.rate, e.slip * e.slip
@@ -85,7 +83,7 @@ class Evidence:
         two = total(np.where(of_two, 1.0, 0.0)) > 1.5
         need = np.where(two, g.evidence_two, g.evidence_one)
         next_is_best = _next(against + _OUT * declared) <= 0.0
-        with_best = np.where(next_is_best, possible, _next(_next(possible)))
+        with_best: Rows = np.where(next_is_best, possible, _next(_next(possible)))
         contrast = against > g.contrast * with_best
         return Judgement(ratio=against / need, accused=(against > need) & contrast)
 

@@ -17,7 +17,7 @@ Powers = Annotated[tuple[Annotated[int, Field(ge=0, le=3)], ...], Field(min_leng
 Rows = tuple[tuple[Number, ...], ...]
 
 YAW_ROWS = ("v", "p", "r", "rudder", "aileron_1", "aileron_3", "spoiler")
-"""What the yaw acceleration is made of: side velocity through the air, rates, and surfaces (1 less 2, 3 less 4, odd less even)."""
+"""What the yaw acceleration is made of: side velocity through the air, rates, surfaces (1 less 2, 3 less 4, odd less even)."""
 SIDE_ROWS = ("phi", *YAW_ROWS)
 """What the sideward acceleration is made of."""
 
