@@ -80,7 +80,7 @@ class RotatingGust:
     )  # fmt: skip
 
     def __init__(self, gust: LateralGust) -> None:
-        self.gust = gust
+        self.gust, self.sigma_m_s = gust, gust.sigma_m_s
 
     def prepare(self, normals: RotatingDraws, meets: Encounter, sample_s: float) -> RotatingConstants:
         """Constants of flights."""
