@@ -23,6 +23,8 @@ def test_consumers_are_frozen():
     assert (consumers.UNCERTAINTY_0, consumers.DISTURBANCE) == (4, 10)
     assert (consumers.DISPERSION, consumers.MAX_ATTEMPTS) == (256, 256)
     assert (consumers.SENSORS_MORE_0, consumers.FAULT_SITES_MORE_0, consumers.DETECTOR_0) == (512, 1024, 4096)
+    assert (consumers.SENSORS_START, consumers.UNIT_NOISE_0, consumers.UNIT_ERRORS_0) == (18, 576, 3104)
+    assert [consumers.unit_noise_number(j, 1) for j in (0, 1, 2, 255)] == [(576, 1), (576, 3), (577, 1), (703, 3)]
     assert [consumers.sensor_number(j) for j in (0, 2, 3, 6, 7)] == [(0, 0), (0, 2), (512, 0), (512, 3), (513, 0)]
     assert [consumers.fault_number(1, j) for j in (0, 3, 4, 8)] == [(65, 0), (65, 3), (1025, 0), (1057, 0)]
     assert scenario_stream("evaluation", "jam_a") == FROZEN_JAM_A

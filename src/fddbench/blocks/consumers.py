@@ -23,10 +23,14 @@ __all__ = [
     "SENSORS_B",
     "SENSORS_C",
     "SENSORS_D",
+    "SENSORS_START",
     "START",
     "UNCERTAINTY_0",
+    "UNIT_ERRORS_0",
+    "UNIT_NOISE_0",
     "fault_number",
     "sensor_number",
+    "unit_noise_number",
 ]
 
 SENSORS_A: Final = 0
@@ -53,6 +57,8 @@ DRYDEN_LATERAL_START: Final = 15
 """The same before the first sample; 16 is kept for what turbulence may need besides."""
 SENSORS_D: Final = 17
 """Sensor noise, four more."""
+SENSORS_START: Final = 18
+"""Errors of single sensors before the first sample: sideslip, airspeed."""
 
 FAULT_SLOT_0: Final = 64
 """First fault of a scenario, its first four sites; the next faults follow: 64..95."""
@@ -66,10 +72,14 @@ MAX_ATTEMPTS: Final = 256
 
 SENSORS_MORE_0: Final = 512
 """Noise of the fourth redundant sensor and of the next ones, four of them a number: 512..575."""
+UNIT_NOISE_0: Final = 576
+"""Noise of the roll rate and of the bank angle of two inertial units; the next two follow: 576..703."""
 FAULT_SITES_MORE_0: Final = 1024
 """Fifth fault site and the next ones, four of them a number, slot after slot: 1024 + 32 (site // 4 - 1) + slot, to 3039."""
 FAULT_NUMBERS_0: Final = 3072
 """Sizes and times of the first fault of a scenario that are drawn once a flight; the next faults follow: 3072..3103."""
+UNIT_ERRORS_0: Final = 3104
+"""Errors of an inertial unit before the first sample, eight numbers, so two consumers a unit: 3104..3615."""
 MOST_SITES: Final = 256
 """Fault sites of a benchmark, and redundant sensors, that have a number."""
 DETECTOR_0: Final = 4096
@@ -103,3 +113,15 @@ def sensor_number(sensor: int) -> tuple[int, int]:
         return SENSORS_A, sensor
     more, place = divmod(sensor - first, _FOUR)
     return SENSORS_MORE_0 + more, place
+
+
+def unit_noise_number(unit: int, signal: int) -> tuple[int, int]:
+    """Consumer, and place among its four numbers, of the roll rate (0) and of the bank angle (1) of an inertial unit.
+
+    >>> unit_noise_number(0, 0), unit_noise_number(1, 1), unit_noise_number(2, 0)
+    ((576, 0), (576, 3), (577, 0))
+    """
+    if not (0 <= unit < MOST_SITES and signal in (0, 1)):
+        raise ValueError(f"need a unit below {MOST_SITES} and a signal 0 or 1, got {unit=}, {signal=}")
+    more, place = divmod(2 * unit + signal, _FOUR)
+    return UNIT_NOISE_0 + more, place

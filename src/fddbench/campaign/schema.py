@@ -1,10 +1,12 @@
 """JSON schema of a campaign file, so that an editor completes its keys."""
 
+from collections.abc import Iterator
 from typing import Any
 
 from fddbench import kinds
 from fddbench.campaign.rules.model import CampaignFile, campaign_file
 from fddbench.errors import FddbenchError
+from fddbench.interfaces import Benchmark, Plant
 from fddbench.interfaces.benchmark import default_choices
 from fddbench.units import UNITS
 
@@ -21,7 +23,7 @@ def campaign_schema() -> dict[str, Any]:
     for name in kinds.known("benchmark"):
         try:
             benchmark = kinds.load("benchmark", name)()
-            found = {site.unit_name for site in benchmark.plant(default_choices(benchmark)).sites}
+            found = {site.unit_name for plant in _plants(benchmark) for site in plant.sites}
         except Exception:  # a package of somebody else's may raise anything
             continue
         keys |= dict.fromkeys(key for key in benchmark.choices if key not in CampaignFile.model_fields)
@@ -32,6 +34,15 @@ def campaign_schema() -> dict[str, Any]:
         schema["$defs"] |= fault.pop("$defs", {})
     schema["$defs"]["ScenarioEntry"]["properties"]["faults"]["items"] = {"anyOf": faults}
     return schema
+
+
+def _plants(benchmark: Benchmark) -> Iterator[Plant]:
+    """What flies with the defaults, and with every other option by itself: sites may differ."""
+    usual = default_choices(benchmark)
+    yield benchmark.plant(usual)
+    for key, choice in benchmark.choices.items():
+        for name in list(choice.options)[1:]:
+            yield benchmark.plant({**usual, key: choice.options[name]})
 
 
 def _faults() -> list[Any]:

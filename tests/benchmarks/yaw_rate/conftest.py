@@ -40,7 +40,7 @@ def start(loop, n_cases, *, manoeuvres="cruise", faults=None, normals=None, **pa
             faults=FlightFaults(
                 lists=faults, which=np.arange(n_cases), uniform=np.full((slots, len(loop.bus.sites), n_cases), 0.5)
             ),
-            normals=loop.before.unpack(np.zeros((4, n_cases)) if normals is None else normals),
+            normals=loop.before.unpack(np.zeros((loop.before.size, n_cases)) if normals is None else normals),
         )
     )
     constants = loop.constants.spread(prepared.constants, n_cases)

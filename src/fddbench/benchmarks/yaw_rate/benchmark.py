@@ -6,8 +6,9 @@ from typing import Any
 
 from fddbench.benchmarks.yaw_rate.plant import PLANT_NEEDS, YawRatePlant
 from fddbench.benchmarks.yaw_rate.sensors import PRESETS
+from fddbench.benchmarks.yaw_rate.unit_sites import plant_with_units
 from fddbench.benchmarks.yaw_rate.winds import WINDS
-from fddbench.interfaces import Choice, Loop, Options
+from fddbench.interfaces import Choice, Floats, IdealModel, Loop, Options
 from fddbench.kinds import Named
 from fddbench.voting.closest_two import ClosestTwo
 from fddbench.voting.median import Median
@@ -52,7 +53,7 @@ class YawRate:
             needs=("vote",),
         ),
         "sensors": Choice(
-            about="noise of the sensors",
+            about="noise of the sensors; iru: inertial units with drawn errors, whose phi and p are fault sites too",
             options=PRESETS,
             family="sensor",
             needs=("r_deg_s", "beta_deg", "p_deg_s", "phi_deg"),
@@ -70,10 +71,18 @@ class YawRate:
     published = "table8"
 
     def plant(self, chosen: Mapping[str, Any]) -> YawRatePlant:
-        """The chosen plant."""
-        plant: YawRatePlant = chosen["plant"]
+        """The chosen plant; sensors of inertial units bring it more fault sites."""
+        plain, has_units = chosen["plant"], getattr(chosen["sensors"], "errors", None) is not None
+        plant: YawRatePlant = plant_with_units(plain) if has_units else plain
         return plant
 
     def loop(self, options: Options) -> Loop:
         """The loop that the chosen plant flies in, for these options."""
         return self.plant(options.chosen).loop(options)
+
+    def ideal(
+        self, chosen: Mapping[str, Any], parameters: Mapping[str, Floats], sample_s: float
+    ) -> Mapping[str, IdealModel] | str:
+        """What the ideal test knows of flights, as their plant says; see `fddbench.interfaces.Benchmark`."""
+        own = getattr(self.plant(chosen), "ideal", None)
+        return "this plant states no ideal model" if own is None else own(chosen, parameters, sample_s)

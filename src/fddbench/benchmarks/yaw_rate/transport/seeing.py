@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 
@@ -10,7 +9,8 @@ from fddbench.benchmarks.yaw_rate.transport.law import GUIDANCE
 from fddbench.benchmarks.yaw_rate.transport.plant import PlantConstants
 from fddbench.benchmarks.yaw_rate.transport.sensed import Sensed
 from fddbench.benchmarks.yaw_rate.transport.sensors import Readings
-from fddbench.blocks.layout import Row, Rows, record
+from fddbench.benchmarks.yaw_rate.unit_sites import P_UNITS, PHI_UNITS
+from fddbench.blocks.layout import Row, Rows
 from fddbench.flight.atmosphere import FT_M, dynamic_pressure_pa, true_airspeed_m_s
 from fddbench.flight.transport.aircraft import Aircraft
 from fddbench.flight.transport.limits import highest_alpha_rad
@@ -18,7 +18,7 @@ from fddbench.flight.transport.motion import Motion
 from fddbench.interfaces import Response
 from fddbench.units import DEG_PER_RAD, RAD_PER_DEG
 
-__all__ = ["RESPONSES", "TRUTH", "VOTED", "Voted", "departed", "measured", "sensed", "signals", "truth"]
+__all__ = ["RESPONSES", "TRUTH", "departed", "measured", "sensed", "signals", "truth"]
 
 TRUTH = (
     *(
@@ -52,19 +52,6 @@ _MOST_BANK, _MOST_PITCH, _MOST_SIDESLIP = (RAD_PER_DEG * each for each in (90.0,
 _BEYOND_BUFFET, _BELOW_ZERO_LIFT = RAD_PER_DEG * 8.0, RAD_PER_DEG * 12.0
 
 
-@record
-class Voted:
-    """One part for each signal that is voted."""
-
-    r: Any
-    alpha: Any
-    n_z: Any
-
-
-VOTED = ("r", "alpha", "n_z")
-"""Names of the parts of `Voted`."""
-
-
 def signals(n_rates: int, n_voted: int) -> Mapping[str, int]:
     """Signals of the bus and their rows; the first are those of the lateral model."""
     single = ("phi_deg", "beta_deg", "p_deg_s", "r_voted_deg_s", "v_tas_m_s")
@@ -76,32 +63,39 @@ def signals(n_rates: int, n_voted: int) -> Mapping[str, int]:
 
 
 def measured(
-    c: PlantConstants, motion: Motion, readings: Readings, s: Mapping[str, Rows], voted: Voted, thrust_ratio: Row
+    c: PlantConstants,
+    motion: Motion,
+    readings: Readings,
+    s: Mapping[str, Rows],
+    voted: Mapping[str, Row],
+    thrust_ratio: Row,
 ) -> SimpleNamespace:
     """The bus at this sample; `s` are the signals with their faults."""
     altitude_ft = c.one_altitude * (motion.altitude_m * (1.0 / FT_M))
     v_cas_kt = c.one_v_cas * motion.v_cas_kt
+    units = {name: s[name] for name in (P_UNITS, PHI_UNITS) if name in s}
     return SimpleNamespace(
-        phi_deg=readings.phi_deg,
+        phi_deg=voted.get(PHI_UNITS, readings.phi_deg),
         theta_deg=readings.theta_deg,
         beta_deg=readings.beta_deg,
-        p_deg_s=readings.p_deg_s,
+        p_deg_s=voted.get(P_UNITS, readings.p_deg_s),
         q_deg_s=readings.q_deg_s,
         r_deg_s=s["r_deg_s"],
-        r_voted_deg_s=voted.r,
+        r_voted_deg_s=voted["r_deg_s"],
         alpha_deg=s["alpha_deg"],
-        alpha_voted_deg=voted.alpha,
+        alpha_voted_deg=voted["alpha_deg"],
         n_z_g=s["n_z_g"],
-        n_z_voted_g=voted.n_z,
+        n_z_voted_g=voted["n_z_g"],
         surface_deg=s["surface_deg"],
         elevator_deg=s["elevator_deg"],
         stabiliser_deg=s["stabiliser_deg"][0],
         thrust_ratio=thrust_ratio,
-        v_tas_m_s=true_airspeed_m_s(v_cas_kt, altitude_ft),
+        v_tas_m_s=true_airspeed_m_s(v_cas_kt, altitude_ft) + readings.v_tas_error_m_s,
         mass_kg=c.mass_measured_kg,
         x_cg_ratio=c.x_cg_measured_ratio,
         altitude_ft=altitude_ft,
         v_cas_kt=v_cas_kt,
+        **units,
     )
 
 

@@ -1,6 +1,7 @@
-"""Faults on every signal of the aircraft that has fault sites; a signal without any passes."""
+"""Faults on every signal of an aircraft that has fault sites; a signal without any passes."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from fddbench.errors import FddbenchError
 from fddbench.faults.injection import SignalFaults
 from fddbench.interfaces import Fault, FlightFaults, Site
 
-__all__ = ["SIGNALS", "Breaking", "Broken"]
+__all__ = ["Breaking", "Broken"]
 
 
 @record
@@ -19,6 +20,8 @@ class Broken:
     """One part for each signal that may have fault sites."""
 
     r_deg_s: Any
+    p_units_deg_s: Any
+    phi_units_deg: Any
     alpha_deg: Any
     n_z_g: Any
     surface_deg: Any
@@ -26,12 +29,8 @@ class Broken:
     stabiliser_deg: Any
 
 
-SIGNALS = ("r_deg_s", "alpha_deg", "n_z_g", "surface_deg", "elevator_deg", "stabiliser_deg")
-"""Signals that may have fault sites."""
-
-
 def _of_each(part: Callable[[str], Any]) -> Broken:
-    return Broken(**{name: part(name) for name in SIGNALS})
+    return Broken(**{field.name: part(field.name) for field in fields(Broken)})
 
 
 class Breaking:
@@ -41,6 +40,8 @@ class Breaking:
     ----------
     sites : tuple of Site
         Fault sites of the plant.
+    signals : sequence of str
+        Where this aircraft may have fault sites.
     faults : sequence of sequences of Fault
         Of every scenario.
     sample_s : float
@@ -52,12 +53,14 @@ class Breaking:
         A site lies on another signal.
     """
 
-    def __init__(self, sites: tuple[Site, ...], faults: Sequence[Sequence[Fault]], sample_s: float) -> None:
-        wrong = [f"{site.name} on {site.signal}" for site in sites if site.signal not in SIGNALS]
+    def __init__(
+        self, sites: tuple[Site, ...], signals: Sequence[str], faults: Sequence[Sequence[Fault]], sample_s: float
+    ) -> None:
+        wrong = [f"{site.name} on {site.signal}" for site in sites if site.signal not in signals]
         if wrong:
-            raise FddbenchError(f"fault sites {', '.join(wrong)}: this plant has sites on {', '.join(SIGNALS)}")
+            raise FddbenchError(f"fault sites {', '.join(wrong)}: this plant has sites on {', '.join(signals)}")
         self.sites = sites
-        self.parts = {name: SignalFaults(sites, name, faults, sample_s) for name in SIGNALS}
+        self.parts = {field.name: SignalFaults(sites, field.name, faults, sample_s) for field in fields(Broken)}
         self.states = Layout(_of_each(lambda name: self.parts[name].states.shape))
         self.constants = Layout(_of_each(lambda name: self.parts[name].constants.shape))
         self.draws: Draws[Broken] = Draws(_of_each(lambda name: self.parts[name].draws.names))
@@ -104,8 +107,8 @@ class _Sample:
         return stacked
 
     def after(self) -> Broken:
-        """States at the next sample."""
-        return Broken(**self._after)
+        """States at the next sample; a signal that was not handed over keeps its own."""
+        return _of_each(lambda name: self._after.get(name, getattr(self._x, name)))
 
     def added(self) -> Rows:
         """What faults add on every site, (n_sites, n_cases)."""
