@@ -12,7 +12,7 @@ from textwrap import fill
 from typing import Any
 
 from fddbench import __version__
-from fddbench.cli import aircraft, commands, completing, designing, looking
+from fddbench.cli import aircraft, commands, completing, counting, designing, looking
 from fddbench.errors import FddbenchError, ResultsWarning
 
 __all__ = ["entry", "main", "parser"]
@@ -50,6 +50,7 @@ def parser() -> argparse.ArgumentParser:
     _reading(subs)
     _looking(subs)
 
+    _counting(subs)
     cost = _add(subs, "cost", commands.cost)
     cost.add_argument("detector", metavar="DETECTOR", help="name of a design")
     cost.add_argument(
@@ -94,6 +95,31 @@ def _reading(subs) -> None:  # type: ignore[no-untyped-def]
 
     finding = _add(subs, "finding", commands.finding)
     finding.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+
+
+def _counting(subs) -> None:  # type: ignore[no-untyped-def]
+    """Commands that count and compare."""
+    table = _add(subs, "table", counting.table)
+    table.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+    table.add_argument(
+        "--format", choices=counting.FORMATS, default="markdown", help="what to write it as (default: markdown)"
+    )
+    table.add_argument(
+        "--by", action="append", default=[], metavar="COLUMN", help="split by this column (may be repeated)"
+    )
+    table.add_argument("--output", type=Path, metavar="FILE", help="file to write (default: print it)")
+
+    compare = _add(subs, "compare", counting.compare)
+    compare.add_argument("folder", type=Path, metavar="A", help="folder of results")
+    compare.add_argument("other", type=Path, nargs="?", metavar="B", help="another one (default: A itself)")
+    compare.add_argument(
+        "--detector", action="append", default=[], metavar="NAME",
+        help="detector of A, and once more that of B (default: every one with itself)",
+    )  # fmt: skip
+    compare.add_argument(
+        "--require", action="append", default=[], metavar="MEASURE",
+        help="end with 1 where this got worse: right, wrong_site, false_alarm or detection_time (may be repeated)",
+    )  # fmt: skip
 
 
 def _looking(subs) -> None:  # type: ignore[no-untyped-def]
