@@ -8,6 +8,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from fddbench.api.bounds import bounds
     from fddbench.api.campaigns import plan, read, run
     from fddbench.api.comparing import compare
     from fddbench.api.designs import tune
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 __all__ = [
     "__version__",
     "alarms",
+    "bounds",
     "columns",
     "compare",
     "detectable",
@@ -46,6 +48,7 @@ _ROOMS = {
     **dict.fromkeys(("alarms", "columns", "detectable", "load", "load_events"), "tables"),
     **dict.fromkeys(("score", "signals"), "flights"),
     "compare": "comparing",
+    "bounds": "bounds",
     "finding": "findings",
     "summary": "summaries",
     "report": "pages",

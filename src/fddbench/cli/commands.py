@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from fddbench.runner.assembly import Assembly
 
-__all__ = ["check", "cost", "finding", "init", "list_", "report", "run", "schema", "scores"]
+__all__ = ["bound", "check", "cost", "finding", "init", "list_", "report", "run", "schema", "scores"]
 
 
 def run(args: argparse.Namespace) -> int:
@@ -53,16 +53,32 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _summary(folder: Path, tables: "tuple[pd.DataFrame, pd.DataFrame]", *, wide: bool, failed: bool) -> None:
-    """Print the summary tables of a folder of results, and which of its flights failed."""
+    """Print the summary tables of a folder of results, wide ones with their bounds, and which of its flights failed."""
     from fddbench.reporting.terminal import to_text
     from fddbench.results.whole import holdings
 
     found = holdings(folder)
     if found.partial:
         print(f"not the whole campaign: {found.sentence}")
-    print(to_text(*tables, wide=wide))
+    summary, alarms = tables
+    print(to_text(_with_bounds(folder, summary) if wide else summary, alarms, wide=wide))
     if failed:
         _failures(folder)
+
+
+def _with_bounds(folder: Path, summary: "pd.DataFrame") -> "pd.DataFrame":
+    """Summary with the bound of each score; without it where none can be stated, which is said."""
+    from fddbench.api.bounds import bounds
+    from fddbench.metrics.bound import breaches, with_bounds
+
+    try:
+        stated = bounds(folder)
+    except FddbenchError as error:  # of somebody else's benchmark; what was flown is shown all the same
+        print(f"fddbench: no bound: {error}", file=sys.stderr)
+        return summary
+    for sentence in breaches(summary, stated):
+        print(f"above its bound: {sentence}")
+    return with_bounds(summary, stated)
 
 
 def _failures(folder: Path) -> None:
@@ -82,6 +98,18 @@ def report(args: argparse.Namespace) -> int:
     from fddbench.api.pages import report as write
 
     print(write(args.folder, args.output))
+    return 0
+
+
+def bound(args: argparse.Namespace) -> int:
+    """Print how well any detector can do: the ideal test that knows model, fault and time.
+
+    By scenario and by what it is supposed to know: detectability d, and the probability P_D that it finds the faulty sites.
+    """
+    from fddbench.api.bounds import bounds
+    from fddbench.reporting.bounds import bounds_text
+
+    print(bounds_text(bounds(args.campaign, p_fa=args.p_fa, flights=args.flights)))
     return 0
 
 
