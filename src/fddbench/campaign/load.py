@@ -12,6 +12,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from fddbench import gallery, kinds
+from fddbench.campaign.case_table import CaseTable, read_case_table
 from fddbench.campaign.meaning import Campaign, Scenario
 from fddbench.campaign.reading.canonical import canonical_text, fingerprint
 from fddbench.campaign.reading.document import Address, Document, refuse
@@ -50,7 +51,11 @@ def read_campaign(path: Path, overrides: Sequence[str] = ()) -> Campaign:
     mistakes += [*wrong, *ground.mistakes]
     sites = ground.plant.sites if ground.plant else ()
     faults = read_faults(document, sites, path.parent)
-    mistakes += faults.mistakes
+    table, table_files, wrong_table = read_case_table(
+        document, path.parent, ground.plant.parameters if ground.plant else ()
+    )
+    faults.files |= table_files
+    mistakes += [*faults.mistakes, *(wrong_table if ground.plant else [])]
     if ground.benchmark is not None and ground.plant is not None:
         mistakes += unknown_names(document, ground.benchmark, ground.plant)
         if written is not None and not mistakes:
@@ -64,7 +69,7 @@ def read_campaign(path: Path, overrides: Sequence[str] = ()) -> Campaign:
     ]
     refuse(mistakes)
     assert written is not None
-    return _meaning(document, path, written, faults, designs, ground)
+    return _meaning(document, path, written, faults, designs, ground, table)
 
 
 @dataclass(kw_only=True)
@@ -252,6 +257,7 @@ def _meaning(
     faults: ReadFaults,
     designs: tuple[Design, ...],
     ground: _Ground,
+    table: CaseTable,
 ) -> Campaign:
     assert ground.benchmark is not None
     assert ground.chosen is not None
@@ -270,6 +276,7 @@ def _meaning(
         reconfigure=written.reconfigure or "",
         reconfigure_where=document.where(("reconfigure",)),
         text=canonical_text(document.data),
+        table=table,
         beside=beside,
         sha256=fingerprint(_content(written, faults.lists, designs, ground.chosen.names, beside)),
     )
@@ -290,8 +297,13 @@ def _content(
         for number, entry in enumerate(written.scenarios)
     ]
     content["designs"] = {design.base: design.sha256 for design in designs}
+    # a campaign means what it meant before there were these keys
     if written.reconfigure is None:
-        del content["reconfigure"]  # a campaign means what it meant before there was this key
+        del content["reconfigure"]
+    drawn = written.dispersions.monte_carlo
+    if drawn is not None and drawn.plain:
+        for key in ("sampling", "table", "correlation"):
+            del content["dispersions"]["monte_carlo"][key]
     if beside:
         content["files"] = {name: sha256(text).hexdigest() for name, text in sorted(beside.items())}
     return content
