@@ -58,7 +58,9 @@ def nominal_reference(plant: UncertainPlant) -> StateSpace:
     """Diagonal reference of first order in each channel: what the faults make of `observer_bank`, scaled to ‖T_ref‖₋ = 1."""
     faults = _from_faults(plant, observer_bank(plant))
     n = plant.Bf.shape[1]
-    channels = [_first_order(StateSpace(faults.A, faults.B[:, [i]], faults.C[[i]], faults.D[[i]][:, [i]])) for i in range(n)]
+    channels = [
+        _first_order(StateSpace(faults.A, faults.B[:, [i]], faults.C[[i]], faults.D[[i]][:, [i]])) for i in range(n)
+    ]
     a, c, d = np.array(channels).T
     least = hminus_index(StateSpace.diagonal(a, np.ones(n), c, d)).value
     return StateSpace.diagonal(a, np.ones(n), c / least, d / least)
@@ -88,8 +90,10 @@ def _gain(plant: UncertainPlant, free: Decoupled) -> Floats:
     G = free.T @ (plant.Bd - free.B_y @ plant.Dd)
     N = free.S @ plant.Dd
     R, cross = N @ N.T, G @ N.T
+    # what the projection T leaves out has no rate of its own: noise there makes the filter forget it
+    Q = G @ G.T + free.E @ free.E.T
     try:
-        P = solve_continuous_are((free.T @ free.A).T, free.SC.T, G @ G.T, R, s=cross)
+        P = solve_continuous_are((free.T @ free.A).T, free.SC.T, Q, R, s=cross)
     except (np.linalg.LinAlgError, ValueError) as error:
         raise DesignError(
             "no steady Kalman filter: each output that is left needs a disturbance of its own (R = S Dd Dd' S' regular)"

@@ -63,7 +63,13 @@ class HinfRecipe(Recipe):
 
     plant: str | dict[str, Matrix]
     method: Literal[
-        "fixed_reference", "free_reference", "fixed_poles", "two_step", "exact_inverse", "unknown_input_observer", "kalman"
+        "fixed_reference",
+        "free_reference",
+        "fixed_poles",
+        "two_step",
+        "exact_inverse",
+        "unknown_input_observer",
+        "kalman",
     ]
     reference: ReferenceEntry | None = None
     fixed_poles: Row | None = None

@@ -25,12 +25,12 @@ from fddbench.systems import StateSpace, UncertainPlant
 if TYPE_CHECKING:
     from fddbench.design.recipes.hinf_filter import HinfRecipe
 
-__all__ = ["gains_of", "made"]
+__all__ = ["gains_of", "made", "named_plant"]
 
 
 def made(recipe: "HinfRecipe") -> tuple[Filter, dict[str, Any]]:
     """Filter of a recipe and what is known of it."""
-    plant = _plant(recipe.plant)
+    plant = named_plant(recipe.plant)
     if recipe.method in ("exact_inverse", "unknown_input_observer"):
         filter_ = _exact_inverse(plant) if recipe.method == "exact_inverse" else observer_bank(plant)
         identity = StateSpace.gain(np.eye(plant.inputs[0]))
@@ -97,7 +97,8 @@ def _findings(design: Design) -> dict[str, Any]:
     }
 
 
-def _plant(given: str | Mapping[str, Any]) -> UncertainPlant:
+def named_plant(given: str | Mapping[str, Any]) -> UncertainPlant:
+    """Plant of a recipe: its own matrices, or those of a benchmark; refuses a benchmark that has none."""
     if not isinstance(given, str):
         return plant_of(given, "recipe.plant")
     matrices = getattr(kinds.load("benchmark", given), "matrices", None)
