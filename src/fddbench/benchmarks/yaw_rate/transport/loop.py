@@ -16,12 +16,12 @@ from fddbench.benchmarks.yaw_rate.unit_sites import P_UNITS, PHI_UNITS
 from fddbench.benchmarks.yaw_rate.voters import Voted, Voters
 from fddbench.blocks.block import Part
 from fddbench.blocks.drawn import Draws
-from fddbench.blocks.layout import ROW, Layout, Nothing, Row, record
+from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, record
 from fddbench.flight.actuators import Actuators, ActuatorState
 from fddbench.flight.atmosphere import FT_M
 from fddbench.flight.transport.engines import spooled
 from fddbench.flight.transport.travel import rates_deg_s, travel_deg
-from fddbench.flight.wind import Encounter
+from fddbench.flight.wind import Encounter, rotating
 from fddbench.interfaces import Bus, Flights, Options, Prepared, Sample
 from fddbench.units import DEG_PER_RAD
 
@@ -46,12 +46,13 @@ class LoopState:
 
 @record
 class LoopConstants:
-    """Constants of the parts that have any."""
+    """Constants of the parts that have any, and the share of the rotations of the air that the aircraft feels."""
 
     plant: PlantConstants
     wind: Part
     sensors: Part
     faults: Broken
+    gust_rotation_ratio: Row
 
 
 @record
@@ -76,9 +77,10 @@ class TransportLoop:
 
     The bus holds what the lateral model has there, under the same names, and besides incidence and load factor, three of
     each and the voted ones, pitch angle and rate, both elevators, the stabiliser and the share of the thrust. Airspeeds, mass,
-    X_cg and altitude carry their measurement errors.
+    X_cg and altitude carry their measurement errors. Sensors that are declared leave their vote.
     """
 
+    reconfigures = True
     truth = TRUTH
 
     def __init__(self, plant: TransportPlant, options: Options) -> None:
@@ -90,7 +92,8 @@ class TransportLoop:
         rates = self.breaking.n_sites("r_deg_s")
         self.sensors = TransportSensors(chosen["sensors"], rates, options.sample_s)
         of_units = (P_UNITS, PHI_UNITS) if self.sensors.n_units else ()
-        self.voters = Voters(chosen["voter"], ("r_deg_s", "alpha_deg", "n_z_g", *of_units))
+        voted = {"r_deg_s": rates, "alpha_deg": N_VOTED, "n_z_g": N_VOTED, **dict.fromkeys(of_units, rates)}
+        self.voters = Voters(chosen["voter"], voted, plant.sites, options.sample_s)
         self.law = TransportLaw(plant.aircraft, plant.gains, options.sample_s)
         actuators = plant.aircraft.actuators
         self.actuators = Actuators(
@@ -107,6 +110,7 @@ class TransportLoop:
             LoopConstants(
                 plant=plant.constants.shape, wind=self.wind.constants.shape, sensors=self.sensors.constants.shape,
                 faults=self.breaking.constants.shape,
+                gust_rotation_ratio=ROW,
             )
         )  # fmt: skip
         self.draws: Draws[LoopDraws] = Draws(
@@ -133,6 +137,7 @@ class TransportLoop:
             wind=self.wind.prepare(flights.normals.wind, meets, self.sample_s),
             sensors=self.sensors.prepare(flights.normals.sensors),
             faults=self.breaking.prepare(flights.faults),
+            gust_rotation_ratio=flights.parameters["gust_rotation_ratio"],
         )
         return Prepared(constants=constants, infeasible_reason=plant.infeasible_reason)
 
@@ -151,10 +156,13 @@ class TransportLoop:
             faults=self.breaking.start(c.faults),
         )
 
-    def step(self, x: LoopState, c: LoopConstants, n: LoopDraws, sample: Row) -> tuple[LoopState, Sample]:
+    def step(
+        self, x: LoopState, c: LoopConstants, n: LoopDraws, sample: Row, declared: Rows = None
+    ) -> tuple[LoopState, Sample]:
         """One sample, see `fddbench.interfaces.Loop.step`."""
         positions = x.actuators.position_deg
         wind, air = self.wind.step(x.wind, c.wind, n.wind, sample, like=x.thrust_ratio)
+        air = rotating(air, c.gust_rotation_ratio)
         surfaces = {"surface_deg": positions[:13], "elevator_deg": positions[13:15], "stabiliser_deg": positions[15:]}
         breaking = self.breaking.begin(x.faults, c.faults, n.faults, sample)
         s = {name: breaking.broken(name, rows) for name, rows in surfaces.items()}
@@ -166,7 +174,7 @@ class TransportLoop:
             P_UNITS: readings.p_deg_s, PHI_UNITS: readings.phi_deg,
         }  # fmt: skip
         s |= {name: breaking.broken(name, healthy[name]) for name in self.voters.parts}
-        kept, voted = self.voters.step(x.voters, s)
+        kept, voted = self.voters.step(x.voters, s, declared)
         seen = measured(c.plant, motion, readings, s, voted, x.thrust_ratio)
         law, orders = self.law.step(x.law, c.plant.law, Nothing(), sensed(seen, motion, c.plant), sample)
         after = LoopState(
