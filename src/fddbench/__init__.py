@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from fddbench.api.campaigns import plan, read, run
     from fddbench.api.comparing import compare
     from fddbench.api.designs import tune
+    from fddbench.api.detection_curves import pod
     from fddbench.api.findings import finding
     from fddbench.api.flights import score, signals
     from fddbench.api.pages import report
@@ -31,6 +32,7 @@ __all__ = [
     "load",
     "load_events",
     "plan",
+    "pod",
     "read",
     "report",
     "run",
@@ -50,6 +52,7 @@ _ROOMS = {
     "compare": "comparing",
     "bounds": "bounds",
     "finding": "findings",
+    "pod": "detection_curves",
     "summary": "summaries",
     "report": "pages",
     "table_of": "replaying",

@@ -105,6 +105,10 @@ def _counting(subs) -> None:  # type: ignore[no-untyped-def]
     )
     table.add_argument("--output", type=Path, metavar="FILE", help="file to write (default: print it)")
 
+    pod = _add(subs, "pod", counting.pod)
+    pod.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+    pod.add_argument("--size", default="", metavar="COLUMN", help="size of the fault (default: every one that differs)")
+
     compare = _add(subs, "compare", counting.compare)
     compare.add_argument("folder", type=Path, metavar="A", help="folder of results")
     compare.add_argument("other", type=Path, nargs="?", metavar="B", help="another one (default: A itself)")
