@@ -1,6 +1,6 @@
 """Numbers of the sliding-mode scheme, checked when a design is read."""
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
@@ -72,6 +72,9 @@ class SlidingModeGains(BaseModel):
         Flights that are flown again show the inside of the observer too: output error, injection, rho.
     """
 
+    THRESHOLDS: ClassVar = {
+        "threshold_floor_deg_s": "up", "threshold_gain": "up", "flag_threshold_deg_s": "up", "energy_limit_deg_s2": "up",
+    }  # fmt: skip
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     input_lag_s: Positive
