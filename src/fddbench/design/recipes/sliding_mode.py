@@ -18,6 +18,7 @@ from fddbench.design.sliding_mode import (
     SlidingDesign,
     Weights,
     analyse,
+    frozen_gain,
     largest_fault,
     observer_gains,
     synthesise,
@@ -118,7 +119,7 @@ class SlidingModeRecipe(Recipe):
 
     def make(self) -> Made:
         """Observer of the recipe, and what is known of it."""
-        plant, weights = self._plant(), self._weights()
+        plant, weights = self._plant(self.filter_pole_1_s), self._weights()
         if self.pair is None:
             design = synthesise(plant, weights, solver=self.solver, relax=self.relax)
         else:
@@ -132,10 +133,15 @@ class SlidingModeRecipe(Recipe):
             found["misses_printed"] = self._misses(flown.G_l, flown.P_o, design.pair.L)
         return Made(gains=self._gains(linear, design.pair), found=found)
 
-    def _plant(self) -> FaultyPlant:
+    def gamma_of(self, gains: Mapping[str, Any]) -> float | None:
+        """Largest frozen γ over the vertices that the pair of other gains has with the weights of this recipe."""
+        pair = Pair(L=np.array([gains["l_row"]], dtype=float), W=np.array([gains["w"]], dtype=float))
+        return frozen_gain(self._plant(gains["filter_pole_1_s"]), self._weights(), pair)
+
+    def _plant(self, filter_pole_1_s: float) -> FaultyPlant:
         A = lateral_lpv().tables["A"][..., 0]
         return with_sensor_faults(
-            A, np.eye(4), suspects=[_YAW_RATE], filter_poles=[self.filter_pole_1_s],
+            A, np.eye(4), suspects=[_YAW_RATE], filter_poles=[filter_pole_1_s],
             M=np.array(self.uncertainty, dtype=float), box=Box.of(self.box or [(-1.0, 1.0)] * 4, 4),
         )  # fmt: skip
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fddbench.design.norms import hinf_norm
 from fddbench.design.sliding_mode.bound import lower_bound
 from fddbench.design.sliding_mode.canonical import Canonical, canonical
 from fddbench.design.sliding_mode.certificate import Certificate, certify, storage
@@ -13,7 +14,7 @@ from fddbench.design.sliding_mode.plant import FaultyPlant
 from fddbench.design.sliding_mode.search import best
 from fddbench.errors import DesignError
 
-__all__ = ["SlidingDesign", "analyse", "synthesise"]
+__all__ = ["SlidingDesign", "analyse", "frozen_gain", "synthesise"]
 
 _RELAX_OF_ANALYSIS = 1e-3
 
@@ -81,6 +82,13 @@ def analyse(plant: FaultyPlant, weights: Weights, pair: Pair, *, solver: str = "
     P, gamma = storage(system, pair, plant.box, solver, _RELAX_OF_ANALYSIS)
     proof = certify(system, pair, P, gamma, plant.box)
     return _judged(plant, system, pair, proof, gamma / (1.0 + _RELAX_OF_ANALYSIS))
+
+
+def frozen_gain(plant: FaultyPlant, weights: Weights, pair: Pair) -> float:
+    """Largest H∞ norm of a pair over the vertices, for a rho that stands still; infinite where it is unstable [-]."""
+    system = ErrorSystem(form=canonical(plant), weights=weights)
+    loops = [system.at(rho, pair) for rho in plant.box.corners()]
+    return max(hinf_norm(loop).value if loop.stable() else np.inf for loop in loops)
 
 
 def _judged(plant: FaultyPlant, system: ErrorSystem, pair: Pair, proof: Certificate, optimum: float) -> SlidingDesign:
