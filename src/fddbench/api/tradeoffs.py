@@ -102,19 +102,19 @@ def _made(
     for plugin in path.parent.glob("*.py"):
         shutil.copy(plugin, folder)
     made, recipe = {}, recipe_of(path)
-    for own in (path, *(find_design(name, beside) for name in others)):
+    for own in (path, *(find_design(other, beside) for other in others)):
         shutil.copy(own, folder / f"{own.stem}.yaml")
         data = yaml.safe_load(own.read_text(encoding="utf-8"))
         written = data.get("recipe") or {}
         made[own.stem] = _line(own.stem, "", "", written.get("found", {}), recipe.gamma_of(data["gains"]))
     for key, values in keys.items():
         for number, value in enumerate(values):
-            own = f"{path.stem}.{key.rpartition('.')[2]}.{number + 1}"
-            if own in made:
+            name = f"{path.stem}.{key.rpartition('.')[2]}.{number + 1}"
+            if name in made:
                 raise DesignError(f"two keys end in {key.rpartition('.')[2]!r}: ask for them in two tables")
-            cooked = changed_design(path, key, value, folder / f"{own}.yaml")
+            cooked = changed_design(path, key, value, folder / f"{name}.yaml")
             text = yaml.safe_dump(value, default_flow_style=True, width=10_000).strip().removesuffix("...").strip()
-            made[own] = _line(own, key, text, cooked.found, recipe.gamma_of(cooked.gains))
+            made[name] = _line(name, key, text, cooked.found, recipe.gamma_of(cooked.gains))
     return made
 
 

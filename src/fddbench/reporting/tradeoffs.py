@@ -45,8 +45,13 @@ def tradeoff_png(table: pd.DataFrame, columns: Mapping[str, str], *, title: str)
 
 def _panel(axes: "Axes", values: Floats, heading: str, tints: Sequence[Any]) -> None:
     """One measure of every design, the first as a line through all."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
     if heading.endswith("(log)"):
         axes.set_xscale("log")
+        axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0), numticks=5))
+        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axes.xaxis.set_minor_formatter(NullFormatter())
     axes.axvline(values[0], color=MUTED, lw=0.9, ls=(0, (3, 2)))
     for row, (value, tint) in enumerate(zip(values, tints, strict=True)):
         axes.plot([values[0], value], [row, row], color=tint, lw=1.2, alpha=0.5)

@@ -53,7 +53,7 @@ def test_the_certificate_refuses_a_gamma_that_the_pair_does_not_have(paper, best
     loop = system.at(np.zeros(4), best.pair)
     P = np.eye(loop.order)
     with pytest.raises(DesignError, match="is not proved: the inequalities hold with a relative margin of -"):
-        certify(system, best.pair, P, best.certificate.gamma, paper.plant.box)
+        certify(system, best.pair, P, best.certificate.gamma, paper.plant)
     assert np.linalg.eigvalsh(bounded_real(P, loop, 1.0, np.block)).max() > 0.0
 
 
@@ -101,9 +101,9 @@ def test_the_observer_of_these_gains_slides_and_its_injection_is_the_fault(paper
 
 def test_condition_15_names_the_largest_fault(paper):
     form = canonical(paper.plant)
-    assert largest_fault(form, np.array([10.0, 10.0, 10.0, 13.0]), 1.0) == pytest.approx(9.0 / 0.01)
+    assert largest_fault(form.F2, np.array([10.0, 10.0, 10.0, 13.0]), 1.0) == pytest.approx(9.0 / 0.01)
     with pytest.raises(DesignError, match="condition \\(15\\): min K = 1 does not exceed eta_0 = 1"):
-        largest_fault(form, np.array([1.0, 10.0]), 1.0)
+        largest_fault(form.F2, np.array([1.0, 10.0]), 1.0)
 
 
 def test_units_of_the_model_change_nothing(paper):

@@ -125,13 +125,12 @@ class SlidingModeRecipe(Recipe):
         else:
             design = analyse(plant, weights, self.pair.pair(), solver=self.solver)
         flown = observer_gains(design.form, design.pair.L, np.diag(self.error_pole_1_s))
-        fault = largest_fault(design.form, np.array(self.k), self.eta_0)
-        found = found_of(design) | {"largest_fault_deg_s": short(DEG_PER_RAD * fault)}
-        linear = flown.G_l
-        if self.linear_gain == "printed":
-            linear = np.array(_printed()["Gl"], dtype=float)
+        printed = self.linear_gain == "printed"
+        gains = self._gains(np.array(_printed()["Gl"], dtype=float) if printed else flown.G_l, design.pair)
+        found = found_of(design) | self._largest(design)
+        if printed:
             found["misses_printed"] = self._misses(flown.G_l, flown.P_o, design.pair.L)
-        return Made(gains=self._gains(linear, design.pair), found=found)
+        return Made(gains=gains, found=found)
 
     def gamma_of(self, gains: Mapping[str, Any]) -> float | None:
         """Largest frozen γ over the vertices that the pair of other gains has with the weights of this recipe."""
@@ -183,6 +182,14 @@ class SlidingModeRecipe(Recipe):
                 tuple(f"recipe.scheme: {'.'.join(map(str, e['loc']))}: {e['msg']}" for e in error.errors())
             ) from error
         return own | dict(self.scheme)
+
+    def _largest(self, design: SlidingDesign) -> dict[str, float]:
+        """Largest fault by condition (15); of the super-twisting algorithm its fastest, ``A_f |f'| < k2`` of z_f."""
+        twisting = self.scheme.get("twisting")
+        if twisting is not None:
+            return {"fastest_fault_deg_s2": short(DEG_PER_RAD * twisting["k2"][-1] / self.filter_pole_1_s)}
+        fault = largest_fault(design.form.F2, np.array(self.k), self.eta_0)
+        return {"largest_fault_deg_s": short(DEG_PER_RAD * fault)}
 
     def _misses(self, G_l: Floats, P_o: Floats, L: Floats) -> dict[str, float]:
         """Largest distances of the printed gains from what the formulas give with this pair."""

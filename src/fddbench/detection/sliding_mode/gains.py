@@ -19,14 +19,14 @@ class TwistingEntry(BaseModel):
 
     Attributes
     ----------
-    k1, k2 : 4 numbers
-        Of the root and of the integral, by the outputs [phi, V_y, p, z_f].
+    k1, k2 : numbers, one per output
+        Of the root and of the integral.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    k1: Positive4
-    k2: Positive4
+    k1: Annotated[tuple[Positive, ...], Field(min_length=1)]
+    k2: Annotated[tuple[Positive, ...], Field(min_length=1)]
 
 
 class SlidingModeGains(BaseModel):
@@ -109,4 +109,6 @@ class SlidingModeGains(BaseModel):
     def _twisting_has_gains(self) -> Self:
         if (self.injection == "super_twisting") != (self.twisting is not None):
             raise ValueError("injection: super_twisting needs `twisting: {k1, k2}`, and nothing else looks at it")
+        if self.twisting is not None and {len(self.twisting.k1), len(self.twisting.k2)} != {4}:
+            raise ValueError("twisting: k1 and k2 have 4 numbers, for phi, V_y, p and z_f")
         return self

@@ -4,16 +4,40 @@ An observer predicts the output error e* and adds T nu to it, T the sample time.
 without this solution diverges, or chatters by K at every sample.
 """
 
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal, Protocol
 
 import numpy as np
 
 from fddbench.blocks.block import NOTHING
 from fddbench.blocks.layout import Layout, Nothing, Rows, record
 from fddbench.blocks.linear import column, total
-from fddbench.detection.sliding_mode.gains import SlidingModeGains
+from fddbench.detection.sliding_mode.gains import TwistingEntry
 
-__all__ = ["Injection", "Sigmoid", "SuperTwisting", "UnitVector", "injection"]
+__all__ = ["Injection", "Numbers", "Sigmoid", "SuperTwisting", "UnitVector", "injection"]
+
+
+class Numbers(Protocol):
+    """What the gains of a kind say of its injection."""
+
+    @property
+    def injection(self) -> Literal["sigmoid", "unit_vector", "super_twisting"]:
+        """Which one."""
+        ...
+
+    @property
+    def delta(self) -> float:
+        """Smoothing of eq (37)."""
+        ...
+
+    @property
+    def newton_steps(self) -> int:
+        """Iterations, a fixed number."""
+        ...
+
+    @property
+    def twisting(self) -> TwistingEntry | None:
+        """Gains of the super-twisting algorithm."""
+        ...
 
 
 @record
@@ -31,8 +55,8 @@ class Sigmoid:
 
     states: ClassVar[Layout[Any]] = NOTHING
 
-    def __init__(self, gains: SlidingModeGains, p_o: Rows, sample_s: float) -> None:
-        self.k, self.p_o, self.sample_s = column(gains.k), p_o, sample_s
+    def __init__(self, gains: Numbers, k: Rows, p_o: Rows, sample_s: float) -> None:
+        self.k, self.p_o, self.sample_s = k, p_o, sample_s
         self.delta, self.steps = gains.delta, gains.newton_steps
 
     def start(self) -> Nothing:
@@ -78,8 +102,8 @@ class UnitVector:
 
     states: ClassVar[Layout[Any]] = NOTHING
 
-    def __init__(self, gains: SlidingModeGains, p_o: Rows, sample_s: float) -> None:
-        self.k, self.p_o, self.sample_s, self.steps = column(gains.k), p_o, sample_s, gains.newton_steps
+    def __init__(self, gains: Numbers, k: Rows, p_o: Rows, sample_s: float) -> None:
+        self.k, self.p_o, self.sample_s, self.steps = k, p_o, sample_s, gains.newton_steps
 
     def start(self) -> Nothing:
         """Keeps nothing."""
@@ -114,12 +138,11 @@ class SuperTwisting:
     algorithm, IEEE Transactions on Automatic Control 65(8), 3707-3713.
     """
 
-    states: ClassVar[Layout[Any]] = Layout(Integral(z=4))
-
-    def __init__(self, gains: SlidingModeGains, p_o: Rows, sample_s: float) -> None:
-        del p_o
+    def __init__(self, gains: Numbers, k: Rows, p_o: Rows, sample_s: float) -> None:
+        del k, p_o
         assert gains.twisting is not None
         self.k1, self.k2, self.sample_s = column(gains.twisting.k1), column(gains.twisting.k2), sample_s
+        self.states: Layout[Any] = Layout(Integral(z=len(self.k1)))
 
     def start(self) -> Integral:
         """Integral at zero."""
@@ -147,7 +170,7 @@ Injection = Sigmoid | UnitVector | SuperTwisting
 _KINDS: dict[str, type[Any]] = {"sigmoid": Sigmoid, "unit_vector": UnitVector, "super_twisting": SuperTwisting}
 
 
-def injection(gains: SlidingModeGains, p_o: Rows, sample_s: float) -> Injection:
-    """The one that a design names."""
-    made: Injection = _KINDS[gains.injection](gains, p_o, sample_s)
+def injection(gains: Numbers, *, k: Rows, p_o: Rows, sample_s: float) -> Injection:
+    """The one that a design names, with K and P_o as (p, 1) columns."""
+    made: Injection = _KINDS[gains.injection](gains, k, p_o, sample_s)
     return made

@@ -64,7 +64,7 @@ class Observer:
         # eq (14) for a diagonal A22s: 2 a P = -1
         self.p_o = column([-0.5 / pole for pole in gains.error_pole_1_s])
         self.k = column(gains.k)
-        self.injection: Any = injection(gains, self.p_o, sample_s)
+        self.injection: Any = injection(gains, k=self.k, p_o=self.p_o, sample_s=sample_s)
         self.states = Layout(ObserverState(x=5, rate=5, z_f=ROW, injection=self.injection.states.shape))
 
     def start(self, c: Nothing) -> ObserverState:
