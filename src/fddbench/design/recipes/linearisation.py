@@ -37,6 +37,11 @@ def linearised(model: AffineModel, scheduling: Scheduling, at: Mapping[str, floa
         raise DesignError(
             f"recipe.at: {', '.join(missing)} missing; give every signal that model and scheduling look at"
         )
+    multiplied = [c.signal for c in (*model.outputs, *model.inputs) if c.times]
+    if multiplied:
+        raise DesignError(
+            f"recipe.at: {', '.join(multiplied)} is multiplied by another signal and cannot be linearised"
+        )
     unknown = [name for name in at if name not in (*needed, *scheduling.signals)]
     if unknown:
         raise DesignError(
