@@ -14,8 +14,10 @@ if TYPE_CHECKING:
     from fddbench.api.findings import finding
     from fddbench.api.flights import score, signals
     from fddbench.api.pages import report
+    from fddbench.api.pictures import reconstruction_picture, tradeoff_picture
     from fddbench.api.replaying import table_of
     from fddbench.api.tables import alarms, columns, detectable, load, load_events, summary
+    from fddbench.api.tradeoffs import tradeoff
     from fddbench.api.worst import worst
 
 __all__ = [
@@ -29,12 +31,15 @@ __all__ = [
     "load_events",
     "plan",
     "read",
+    "reconstruction_picture",
     "report",
     "run",
     "score",
     "signals",
     "summary",
     "table_of",
+    "tradeoff",
+    "tradeoff_picture",
     "tune",
     "worst",
 ]
@@ -44,10 +49,12 @@ _ROOMS = {
     **dict.fromkeys(("plan", "read", "run"), "campaigns"),
     **dict.fromkeys(("alarms", "columns", "detectable", "load", "load_events", "summary"), "tables"),
     **dict.fromkeys(("score", "signals"), "flights"),
+    **dict.fromkeys(("reconstruction_picture", "tradeoff_picture"), "pictures"),
     "bounds": "bounds",
     "finding": "findings",
     "report": "pages",
     "table_of": "replaying",
+    "tradeoff": "tradeoffs",
     "tune": "designs",
     "worst": "worst",
 }

@@ -248,7 +248,7 @@ class SlidingModeObserverRecipe(ModelRecipe):
             "G_l": flown.G_l.tolist(),
             "C": plant.C.tolist(),
             "G_n": flown.G_n.tolist(),
-            "start": np.linalg.pinv(plant.C).tolist(),
+            "start": np.vstack([np.linalg.pinv(model.C[outputs]), np.eye(p)[p - n_filtered :]]).tolist(),
             "output_scale": scale.tolist(),
             "error_pole_1_s": [self.error_pole_1_s] * p,
             "injection": self.injection,
