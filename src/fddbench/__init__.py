@@ -10,13 +10,16 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from fddbench.api.bounds import bounds
     from fddbench.api.campaigns import plan, read, run
+    from fddbench.api.comparing import compare
     from fddbench.api.designs import tune
+    from fddbench.api.detection_curves import pod
     from fddbench.api.findings import finding
     from fddbench.api.flights import score, signals
     from fddbench.api.pages import report
     from fddbench.api.pictures import reconstruction_picture, tradeoff_picture
     from fddbench.api.replaying import table_of
-    from fddbench.api.tables import alarms, columns, detectable, load, load_events, summary
+    from fddbench.api.summaries import summary
+    from fddbench.api.tables import alarms, columns, detectable, load, load_events
     from fddbench.api.tradeoffs import tradeoff
     from fddbench.api.worst import worst
 
@@ -25,11 +28,13 @@ __all__ = [
     "alarms",
     "bounds",
     "columns",
+    "compare",
     "detectable",
     "finding",
     "load",
     "load_events",
     "plan",
+    "pod",
     "read",
     "reconstruction_picture",
     "report",
@@ -47,11 +52,14 @@ __version__ = "0.1.0"
 
 _ROOMS = {
     **dict.fromkeys(("plan", "read", "run"), "campaigns"),
-    **dict.fromkeys(("alarms", "columns", "detectable", "load", "load_events", "summary"), "tables"),
+    **dict.fromkeys(("alarms", "columns", "detectable", "load", "load_events"), "tables"),
     **dict.fromkeys(("score", "signals"), "flights"),
     **dict.fromkeys(("reconstruction_picture", "tradeoff_picture"), "pictures"),
+    "compare": "comparing",
     "bounds": "bounds",
     "finding": "findings",
+    "pod": "detection_curves",
+    "summary": "summaries",
     "report": "pages",
     "table_of": "replaying",
     "tradeoff": "tradeoffs",

@@ -9,8 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from fddbench.blocks.block import NO_DRAWS, NOTHING
 from fddbench.blocks.drawn import Draws
 from fddbench.blocks.layout import Layout, Nothing, Rows, record
-from fddbench.blocks.linear import column, largest, total
-from fddbench.detection.confirmation import held_samples, samples
+from fddbench.detection.mean_test import MeanTest, MeanTestState, watched
 from fddbench.errors import DesignError
 from fddbench.interfaces import Bus, Verdict
 from fddbench.systems import DiscreteLti, StateSpace
@@ -62,12 +61,10 @@ class HinfFilterGains(BaseModel):
 
 @record
 class FilterState:
-    """State of the filter; the last residuals, sample after sample; for how long each mean has exceeded; declarations."""
+    """State of the filter; of the decision on its residuals."""
 
     filter: Rows
-    window: Rows
-    held_samples: Rows
-    declared: Rows
+    test: MeanTestState
 
 
 class HinfFilter:
@@ -94,20 +91,23 @@ class HinfFilter:
         g = {name: np.array(getattr(gains, name), dtype=float) for name in _SIDES}
         system = StateSpace(g["A"], np.hstack([g["B_y"], g["B_u"]]), g["C"], np.hstack([g["D_y"], g["D_u"]]))
         self.filter = DiscreteLti.of(system, bus.sample_s)
-        self.n_residuals, self.thresholds = len(gains.thresholds), column(gains.thresholds)
-        self.window = int(samples("window_s", gains.window_s, bus.sample_s, least=1))
-        self.confirm_samples = samples("confirm_s", gains.confirm_s, bus.sample_s)
-        n, self.watches = self.n_residuals, _watched(bus)
+        self.test = MeanTest(
+            gains.thresholds,
+            window_s=gains.window_s,
+            confirm_s=gains.confirm_s,
+            estimates=gains.estimates_faults,
+            bus=bus,
+        )
+        self.watches, self.confirm_samples = watched(bus), self.test.confirm_samples
         self.estimates = "sites" if gains.estimates_faults else None
-        self.evaluated = tuple(f"mean_{i + 1}" for i in range(n))
-        self.recorded = tuple(f"{name}_{i + 1}" for i in range(n) for name in ("mean", "threshold"))
-        self.states = Layout(FilterState(filter=len(g["A"]), window=n * self.window, held_samples=n, declared=n))
+        self.evaluated, self.recorded = self.test.evaluated, self.test.recorded
+        self.states = Layout(FilterState(filter=len(g["A"]), test=self.test.states.shape))
 
     @classmethod
     def from_design(cls, gains: HinfFilterGains, bus: Bus) -> "HinfFilter":
         """Filter for a bus with outputs y and inputs u; refuses matrices that do not fit and unstable filters."""
         bus.require("y", "u")
-        sizes = {"x": len(gains.A), "y": bus.signals["y"], "u": bus.signals["u"], "r": len(_watched(bus))}
+        sizes = {"x": len(gains.A), "y": bus.signals["y"], "u": bus.signals["u"], "r": len(watched(bus))}
         for name, (rows, columns) in _SIDES.items():
             found, need = _shape(getattr(gains, name)), (sizes[rows], sizes[columns])
             if found != need:
@@ -124,28 +124,13 @@ class HinfFilter:
 
     def start(self, c: Nothing) -> FilterState:
         """Nothing declared, filter at rest."""
-        del c
-        return FilterState(filter=0.0, window=0.0, held_samples=0.0, declared=0.0)
+        return FilterState(filter=0.0, test=self.test.start(c))
 
     def step(self, x: FilterState, c: Nothing, n: Nothing, measured: SimpleNamespace) -> tuple[FilterState, Verdict]:
         """Verdict after one sample."""
-        del c, n
-        n_r = self.n_residuals
         filtered, residual = self.filter.step(x.filter, np.concatenate([measured.y, measured.u]))
-        window = np.concatenate([residual, x.window[:-n_r]])
-        mean = total([window[n_r * j : n_r * (j + 1)] for j in range(self.window)]) / float(self.window)
-        held = held_samples(x.held_samples, np.abs(mean) > self.thresholds)
-        declared = np.maximum(x.declared, np.where(held - 1.0 >= self.confirm_samples, 1.0, 0.0))
-        after = FilterState(filter=filtered, window=window, held_samples=held, declared=declared)
-        shown = {name: mean[i] for i, name in enumerate(self.evaluated)}
-        shown |= {f"threshold_{i + 1}": np.zeros_like(mean[i]) + self.thresholds[i] for i in range(n_r)}
-        sizes = mean if self.estimates else None
-        return after, Verdict(declared, largest(np.abs(mean) / self.thresholds), signals=shown, estimate=sizes)
-
-
-def _watched(bus: Bus) -> tuple[str, ...]:
-    """Sites that the residuals speak for: those of the kind of the first one."""
-    return bus.sites_of(bus.sites[0].kind) if bus.sites else ()
+        test, verdict = self.test.step(x.test, c, n, residual)
+        return FilterState(filter=filtered, test=test), verdict
 
 
 def _shape(matrix: Matrix) -> tuple[int, int]:

@@ -9,6 +9,7 @@ import numpy as np
 from fddbench import kinds
 from fddbench.design.bias_filter import bias_filter
 from fddbench.design.linearised import Freedom
+from fddbench.design.nominal_residuals import nominal_reference, observer_bank
 from fddbench.design.problem import Filter, augment, close
 from fddbench.design.proof import Proven
 from fddbench.design.recipes.hinf_entries import plant_of
@@ -24,14 +25,14 @@ from fddbench.systems import StateSpace, UncertainPlant
 if TYPE_CHECKING:
     from fddbench.design.recipes.hinf_filter import HinfRecipe
 
-__all__ = ["gains_of", "made"]
+__all__ = ["gains_of", "made", "named_plant"]
 
 
 def made(recipe: "HinfRecipe") -> tuple[Filter, dict[str, Any]]:
     """Filter of a recipe and what is known of it."""
-    plant = _plant(recipe.plant)
-    if recipe.method == "exact_inverse":
-        filter_ = _exact_inverse(plant)
+    plant = named_plant(recipe.plant)
+    if recipe.method in ("exact_inverse", "unknown_input_observer"):
+        filter_ = _exact_inverse(plant) if recipe.method == "exact_inverse" else observer_bank(plant)
         identity = StateSpace.gain(np.eye(plant.inputs[0]))
         worst = worst_delta(close(augment(plant, identity), identity, filter_), blocks_of(NormBounded(), plant))
         return filter_, {"worst_norm_sampled": short(worst.norm)}
@@ -45,6 +46,9 @@ def made(recipe: "HinfRecipe") -> tuple[Filter, dict[str, Any]]:
     )
     if recipe.method == "fixed_poles":
         design = optimize_fixed_poles(plant, recipe.fixed_poles or (), task.uncertainty, task.weights, **task.options)
+        return _flown(design).filter, _findings(design) | _found_reference(design)
+    if recipe.method == "two_step":
+        design = synthesize(plant, nominal_reference(plant), task.uncertainty, task.weights, **task.options)
         return _flown(design).filter, _findings(design) | _found_reference(design)
     reference = recipe.reference.system() if recipe.reference else StateSpace.gain(np.eye(plant.inputs[0]))
     if recipe.method == "fixed_reference":
@@ -93,7 +97,8 @@ def _findings(design: Design) -> dict[str, Any]:
     }
 
 
-def _plant(given: str | Mapping[str, Any]) -> UncertainPlant:
+def named_plant(given: str | Mapping[str, Any]) -> UncertainPlant:
+    """Plant of a recipe: its own matrices, or those of a benchmark; refuses a benchmark that has none."""
     if not isinstance(given, str):
         return plant_of(given, "recipe.plant")
     matrices = getattr(kinds.load("benchmark", given), "matrices", None)
@@ -131,8 +136,8 @@ def _with_a_state(filter_: Filter) -> Filter:
 
 
 def _speaks_plainly(recipe: "HinfRecipe") -> bool:
-    """Whether residual i is made to be fault i itself: an inverse, a filter of biases, or T_ref = I."""
-    if recipe.method in ("exact_inverse", "kalman"):
+    """Whether residual i is made to be fault i itself: an inverse, a nominal observer, a filter of biases, or T_ref = I."""
+    if recipe.method in ("exact_inverse", "unknown_input_observer", "kalman"):
         return True
     reference = recipe.reference.system() if recipe.reference else None
     identity = reference is None or (
