@@ -11,7 +11,7 @@ import pandas as pd
 import yaml
 
 from fddbench.api.campaigns import read
-from fddbench.campaign.load import find_campaign
+from fddbench.campaign.finding import find_campaign
 from fddbench.campaign.meaning import Campaign
 from fddbench.design.changed import changed_design
 from fddbench.design.recipe import recipe_of
