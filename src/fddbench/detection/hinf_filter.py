@@ -10,11 +10,10 @@ from pydantic import BaseModel, ConfigDict, Field
 from fddbench.blocks.block import NO_DRAWS, NOTHING
 from fddbench.blocks.drawn import Draws
 from fddbench.blocks.layout import Layout, Nothing, Row, Rows, record
-from fddbench.blocks.linear import column, largest, total
-from fddbench.detection.confirmation import held_samples, samples
 from fddbench.detection.lpv_filter.channels import require_channels, rows_of
 from fddbench.detection.lpv_filter.gains import ChannelEntry, SensorsEntry
 from fddbench.detection.lpv_filter.sensors import SensorsDecision, SensorsState
+from fddbench.detection.mean_test import MeanTest, MeanTestState, watched
 from fddbench.errors import DesignError
 from fddbench.interfaces import Bus, Verdict
 from fddbench.systems import DiscreteLti, StateSpace
@@ -77,12 +76,10 @@ class HinfFilterGains(BaseModel):
 
 @record
 class FilterState:
-    """State of the filter; the last residuals, sample after sample; for how long each mean has exceeded; declarations."""
+    """State of the filter; of the decision on its residuals."""
 
     filter: Rows
-    window: Rows
-    held_samples: Rows
-    declared: Rows
+    test: MeanTestState
     sensors: tuple[SensorsState, ...]
 
 
@@ -114,23 +111,23 @@ class HinfFilter:
         g = {name: np.array(getattr(gains, name), dtype=float) for name in _SIDES}
         system = StateSpace(g["A"], np.hstack([g["B_y"], g["B_u"]]), g["C"], np.hstack([g["D_y"], g["D_u"]]))
         self.filter = DiscreteLti.of(system, bus.sample_s)
-        self.n_residuals, self.thresholds = len(gains.thresholds), column(gains.thresholds)
-        self.window = int(samples("window_s", gains.window_s, bus.sample_s, least=1))
-        self.confirm_samples = samples("confirm_s", gains.confirm_s, bus.sample_s)
-        n, self.watches = self.n_residuals, _watched(bus, gains)
-        self.outputs, self.inputs = gains.outputs, gains.inputs or ()
+        self.test = MeanTest(
+            gains.thresholds,
+            window_s=gains.window_s,
+            confirm_s=gains.confirm_s,
+            estimates=gains.estimates_faults,
+            bus=bus,
+        )
         self.sensors = tuple(
-            SensorsDecision(entry, self.thresholds, confirm_s=gains.confirm_s, sample_s=bus.sample_s)
+            SensorsDecision(entry, self.test.thresholds, confirm_s=gains.confirm_s, sample_s=bus.sample_s)
             for entry in (() if gains.sensors is None else (gains.sensors,))
         )
+        self.outputs, self.inputs = gains.outputs, gains.inputs or ()
+        self.watches, self.confirm_samples = _watched(bus, gains), self.test.confirm_samples
         self.estimates = "sites" if gains.estimates_faults else None
-        self.evaluated = tuple(f"mean_{i + 1}" for i in range(n))
-        self.recorded = tuple(f"{name}_{i + 1}" for i in range(n) for name in ("mean", "threshold"))
-        own = 0 if self.sensors else n
+        self.evaluated, self.recorded = self.test.evaluated, self.test.recorded
         kept = tuple(each.states.shape for each in self.sensors)
-        self.states = Layout(
-            FilterState(filter=len(g["A"]), window=n * self.window, held_samples=own, declared=own, sensors=kept)
-        )
+        self.states = Layout(FilterState(filter=len(g["A"]), test=self.test.states.shape, sensors=kept))
 
     @classmethod
     def from_design(cls, gains: HinfFilterGains, bus: Bus) -> "HinfFilter":
@@ -153,35 +150,25 @@ class HinfFilter:
     def start(self, c: Nothing) -> FilterState:
         """Nothing declared, filter at rest."""
         kept = tuple(each.start(c) for each in self.sensors)
-        return FilterState(filter=0.0, window=0.0, held_samples=0.0, declared=0.0, sensors=kept)
+        return FilterState(filter=0.0, test=self.test.start(c), sensors=kept)
 
     def step(self, x: FilterState, c: Nothing, n: Nothing, measured: SimpleNamespace) -> tuple[FilterState, Verdict]:
         """Verdict after one sample."""
-        n_r = self.n_residuals
-        y, u = self._seen(measured, x.window[0])
+        y, u = self._seen(measured, x.test.window[0])
         filtered, residual = self.filter.step(x.filter, np.concatenate([y, u]))
-        window = np.concatenate([residual, x.window[:-n_r]])
-        mean = total([window[n_r * j : n_r * (j + 1)] for j in range(self.window)]) / float(self.window)
-        after, declared = self._decided(replace(x, filter=filtered, window=window), c, n, y, mean)
-        shown = {name: mean[i] for i, name in enumerate(self.evaluated)}
-        shown |= {f"threshold_{i + 1}": np.zeros_like(mean[i]) + self.thresholds[i] for i in range(n_r)}
-        sizes = mean if self.estimates else None
-        return after, Verdict(declared, largest(np.abs(mean) / self.thresholds), signals=shown, estimate=sizes)
+        test, verdict = self.test.step(x.test, c, n, residual)
+        after = replace(x, filter=filtered, test=test)
+        for own, state in zip(self.sensors, x.sensors, strict=True):
+            means = np.stack([verdict.signals[name] for name in self.evaluated])
+            sensors, declared = own.step(state, c, n, y, means)
+            after, verdict = replace(after, sensors=(sensors,)), replace(verdict, declared=declared)
+        return after, verdict
 
     def _seen(self, measured: SimpleNamespace, like: Row) -> tuple[Rows, Rows]:
         """Outputs and inputs of one sample."""
         if self.outputs is None:
             return measured.y, measured.u
         return rows_of(self.outputs, measured, like), rows_of(self.inputs, measured, like)
-
-    def _decided(self, x: FilterState, c: Nothing, n: Nothing, y: Rows, mean: Rows) -> tuple[FilterState, Rows]:
-        """State with the decision, and the declared sites: each by itself, or among sensors."""
-        for own, state in zip(self.sensors, x.sensors, strict=True):
-            sensors, declared = own.step(state, c, n, y, mean)
-            return replace(x, sensors=(sensors,)), declared
-        held = held_samples(x.held_samples, np.abs(mean) > self.thresholds)
-        declared = np.maximum(x.declared, np.where(held - 1.0 >= self.confirm_samples, 1.0, 0.0))
-        return replace(x, held_samples=held, declared=declared), declared
 
 
 def _signals(bus: Bus, gains: HinfFilterGains) -> dict[str, int]:
@@ -208,7 +195,7 @@ def _watched(bus: Bus, gains: HinfFilterGains) -> tuple[str, ...]:
         if unknown:
             raise DesignError(f"sites: {', '.join(unknown)} is not on this benchmark; it has {', '.join(bus.names)}")
         return gains.sites
-    return bus.sites_of(bus.sites[0].kind) if bus.sites else ()
+    return watched(bus)
 
 
 def _shape(matrix: Matrix) -> tuple[int, int]:

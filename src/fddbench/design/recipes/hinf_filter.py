@@ -26,7 +26,9 @@ _TAKES = {
     "fixed_reference": {"reference", "uncertainty", "weights", "solver", "relax"},
     "free_reference": {"reference", "uncertainty", "weights", "solver", "relax"},
     "fixed_poles": {"fixed_poles", "uncertainty", "weights", "solver", "relax"},
+    "two_step": {"uncertainty", "weights", "solver", "relax"},
     "exact_inverse": set(),
+    "unknown_input_observer": set(),
     "kalman": {"weights"},
 }
 """Keys that mean something to a method; others are refused with it."""
@@ -41,9 +43,10 @@ class HinfRecipe(Recipe):
         A benchmark with `matrices`, or the fields of `fddbench.systems.UncertainPlant` themselves.
     model : ModelEntry
         In place of a plant the affine model of a scheduling: its corners or flight conditions are a polytope (Lemma 6).
-    method : {"fixed_reference", "free_reference", "fixed_poles", "exact_inverse", "kalman"}
-        `synthesize`, `optimize_reference` (Algorithm 1 from this reference), `optimize_fixed_poles`,
-        ``r = Df⁻¹ (y - C x̂ - D u)``, or `bias_filter`.
+    method : {"fixed_reference", "free_reference", "fixed_poles", "two_step", "exact_inverse", ...}
+        `synthesize`, `optimize_reference` (Algorithm 1 from this reference), `optimize_fixed_poles`, `synthesize` for the
+        `nominal_reference`. For the plant as if it were known: ``r = Df⁻¹ (y - C x̂ - D u)``, ``unknown_input_observer`` for
+        `observer_bank`, ``kalman`` for `bias_filter`.
     reference : ReferenceEntry
         The identity when left out. What is free in Algorithm 1 is its diagonal, or its triangle if it has one.
     fixed_poles : numbers, one per fault
@@ -66,7 +69,15 @@ class HinfRecipe(Recipe):
 
     plant: str | dict[str, Matrix] | None = None
     model: ModelEntry | None = None
-    method: Literal["fixed_reference", "free_reference", "fixed_poles", "exact_inverse", "kalman"]
+    method: Literal[
+        "fixed_reference",
+        "free_reference",
+        "fixed_poles",
+        "two_step",
+        "exact_inverse",
+        "unknown_input_observer",
+        "kalman",
+    ]
     reference: ReferenceEntry | None = None
     fixed_poles: Row | None = None
     uncertainty: UncertaintyEntry | None = None
