@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from fddbench.api.replaying import table_of
     from fddbench.api.summaries import summary
     from fddbench.api.tables import alarms, columns, detectable, load, load_events
+    from fddbench.api.verifying import verify
     from fddbench.api.worst import worst
 
 __all__ = [
@@ -41,6 +42,7 @@ __all__ = [
     "summary",
     "table_of",
     "tune",
+    "verify",
     "worst",
 ]
 __version__ = "0.1.0"
@@ -57,6 +59,7 @@ _ROOMS = {
     "report": "pages",
     "table_of": "replaying",
     "tune": "designs",
+    "verify": "verifying",
     "worst": "worst",
 }
 
