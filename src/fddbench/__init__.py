@@ -12,12 +12,14 @@ if TYPE_CHECKING:
     from fddbench.api.campaigns import plan, read, run
     from fddbench.api.comparing import compare
     from fddbench.api.designs import tune
+    from fddbench.api.detection_curves import pod
     from fddbench.api.findings import finding
     from fddbench.api.flights import score, signals
     from fddbench.api.pages import report
     from fddbench.api.replaying import table_of
     from fddbench.api.summaries import summary
     from fddbench.api.tables import alarms, columns, detectable, load, load_events
+    from fddbench.api.verifying import verify
     from fddbench.api.worst import worst
 
 __all__ = [
@@ -31,6 +33,7 @@ __all__ = [
     "load",
     "load_events",
     "plan",
+    "pod",
     "read",
     "report",
     "run",
@@ -39,6 +42,7 @@ __all__ = [
     "summary",
     "table_of",
     "tune",
+    "verify",
     "worst",
 ]
 __version__ = "0.1.0"
@@ -50,10 +54,12 @@ _ROOMS = {
     "compare": "comparing",
     "bounds": "bounds",
     "finding": "findings",
+    "pod": "detection_curves",
     "summary": "summaries",
     "report": "pages",
     "table_of": "replaying",
     "tune": "designs",
+    "verify": "verifying",
     "worst": "worst",
 }
 
