@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from fddbench.api.summaries import summary
     from fddbench.api.tables import alarms, columns, detectable, load, load_events
     from fddbench.api.tradeoffs import tradeoff
+    from fddbench.api.verifying import verify
     from fddbench.api.worst import worst
 
 __all__ = [
@@ -46,6 +47,7 @@ __all__ = [
     "tradeoff",
     "tradeoff_picture",
     "tune",
+    "verify",
     "worst",
 ]
 __version__ = "0.1.0"
@@ -64,6 +66,7 @@ _ROOMS = {
     "table_of": "replaying",
     "tradeoff": "tradeoffs",
     "tune": "designs",
+    "verify": "verifying",
     "worst": "worst",
 }
 

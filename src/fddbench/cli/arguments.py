@@ -43,6 +43,7 @@ def parser() -> argparse.ArgumentParser:
 
     _reading(subs)
     _looking(subs)
+    _verify(_add(subs, "verify", looking.verify))
 
     _counting(subs)
     cost = _add(subs, "cost", commands.cost)
@@ -74,7 +75,10 @@ def _add(subs, name: str, command: Callable[[argparse.Namespace], int]) -> argpa
     paragraphs = cleandoc(command.__doc__ or "").split("\n\n")
     text = "\n\n".join(fill(" ".join(each.split()), _WIDTH) for each in paragraphs)
     added: argparse.ArgumentParser = subs.add_parser(
-        name, help=paragraphs[0], description=text, formatter_class=argparse.RawDescriptionHelpFormatter
+        name,
+        help=paragraphs[0].replace("%", "%%"),
+        description=text,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     added.set_defaults(command=command)
     return added
@@ -147,6 +151,14 @@ def _looking(subs) -> None:  # type: ignore[no-untyped-def]
     )
     worst.add_argument(
         "--most", type=_jobs, default=3, metavar="N", help="flights of a kind in a scenario (default: 3)"
+    )
+
+
+def _verify(command: argparse.ArgumentParser) -> None:
+    command.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+    command.add_argument("--refly", type=_flights, default=0, metavar="N", help="fly so many of its flights again")
+    command.add_argument(
+        "--seed", type=int, metavar="N", help="of the draw of these flights (default: another every time)"
     )
 
 
