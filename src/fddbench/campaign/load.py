@@ -52,7 +52,8 @@ def read_campaign(path: Path, overrides: Sequence[str] = ()) -> Campaign:
     faults = read_faults(document, sites, path.parent)
     mistakes += faults.mistakes
     if ground.benchmark is not None and ground.plant is not None:
-        mistakes += unknown_names(document, ground.benchmark, ground.plant)
+        members = ground.chosen.members if ground.chosen else {}
+        mistakes += unknown_names(document, ground.benchmark, ground.plant, members)
         if written is not None and not mistakes:
             mistakes += inconsistencies(document, written, faults.lists, ground.benchmark, ground.plant)
     if written is not None:
