@@ -87,13 +87,106 @@ def test_mistakes(folder, capsys, argv, message):
     assert message in capsys.readouterr().err
 
 
-def test_kinds_without_thresholds_per_signal_cannot_be_tuned(folder, capsys):
-    text = (
-        TUNING.replace("jet_engine", "yaw_rate").replace("steps", "cruise").replace("hinf_identity", "voting_monitor")
-    )
-    (folder / "yaw.yaml").write_text(text.replace("runs: 300", "runs: 1"))
-    assert main(["tune", "voting_monitor", "yaw.yaml"]) == 2
-    assert "cannot be tuned" in capsys.readouterr().err
+YAW = """\
+name: yaw
+benchmark: yaw_rate
+purpose: tuning
+seed: 9
+sensors: white
+duration_s: 4.0
+detectors: [voting_monitor]
+dispersions: {monte_carlo: {runs: 60, mass_kg: {uniform: [180000, 220000]}}}
+scenarios:
+  - {name: healthy, manoeuvre: roll_doublet}
+"""
+
+
+def test_tunes_a_kind_that_only_names_its_thresholds_by_one_factor(folder, capsys):
+    (folder / "yaw.yaml").write_text(YAW)
+    assert main(["tune", "voting_monitor", "yaw.yaml", "--per-flight", "0.1"]) == 0
+    said = capsys.readouterr().out
+    assert "of these 60 flights of 60 runs" in said
+    assert "on other flights:" in said
+    design = yaml.safe_load((folder / "detectors" / "voting_monitor_tuned.yaml").read_text())
+    assert design["tuned_on"] == [{"campaign": "yaw", "seed": 9}]
+    level = design["gains"]["flag_threshold_deg_s"]
+    # flown again, these alarms are those of the tuning; a little less, and the target is not kept
+    sweep = f"detectors=[{{design: voting_monitor, sweep: {{flag_threshold_deg_s: [{level}, {0.994 * level}]}}}}]"
+    assert main(["run", "yaw.yaml", "--quiet", "--jobs", "1", "--set", sweep]) == 0
+    import fddbench
+
+    alarms = fddbench.alarms(folder / "results" / "yaw")["alarms"].tolist()
+    assert f"false alarms: {alarms[0]} of these" in said
+    assert alarms[0] == 5 < alarms[1]  # 6 of 61 promise less than 10 %
+
+
+@pytest.mark.parametrize(
+    ("argv", "message"),
+    [
+        (["--per-flight", "0.001"], "That needs about 999 runs without one"),
+        (
+            ["--per-hour", "0.1", "--confidence", "0.95"],
+            "cannot promise at most 0.1 per hour on other flights, with 95 %",
+        ),
+        (["--confidence", "0.9"], "a confidence is about other flights"),
+        (["--per-flight", "0"], "a share above 0 and below 1"),
+        (["--by", "residual"], "voting_monitor designs are tuned by factor"),
+        (["--only", "flag_threshold"], "Did you mean 'flag_threshold_deg_s'"),
+        (["--set", "dispersions.monte_carlo.runs=1"], "tell nothing of other flights"),
+        (
+            ["--set", "scenarios.healthy.faults=[{kind: jam, sites: [r1], onset_s: 1, amplitude_deg_s: 1}]"],
+            "no healthy scenario",
+        ),
+    ],
+)
+def test_targets_that_cannot_be_met(folder, capsys, argv, message):
+    (folder / "yaw.yaml").write_text(YAW)
+    assert main(["tune", "voting_monitor", "yaw.yaml", *argv]) == 2
+    assert message in capsys.readouterr().err
+
+
+OWN = """\
+from typing import ClassVar
+from pydantic import BaseModel
+from fddbench.interfaces import Verdict
+
+class Gains(BaseModel):
+    SAID
+    level_deg_s: float
+    patience: int = 3
+
+class Mine:
+    Gains = Gains
+    isolates, watches = False, ()
+    def __init__(self, gains):
+        self.gains = gains
+    @classmethod
+    def from_design(cls, gains, bus):
+        return cls(gains)
+    def start(self):
+        return 0
+    def step(self, count, measured):
+        apart = max(abs(r - measured.r_voted_deg_s) for r in measured.r_deg_s)
+        count = count + 1 if apart * self.gains.level_deg_s > 1.0 else 0
+        return count, Verdict(None, apart * self.gains.level_deg_s, alarm=count >= self.gains.patience)
+"""
+
+
+def test_tunes_a_detector_of_ordinary_python_that_says_what_quiets_it(folder, capsys):
+    (folder / "yaw.yaml").write_text(YAW.replace("4.0", "0.2").replace("runs: 60", "runs: 20"))
+    (folder / "mine.yaml").write_text("kind: mine.py:Mine\nsource: me\ntuned_on: null\ngains: {level_deg_s: 10.0}\n")
+    for said, message in (
+        ("", "does not say which gains are thresholds"),
+        ("THRESHOLDS: ClassVar = {'level': 'up'}", "names 'level'"),
+        ("THRESHOLDS: ClassVar = {'level_deg_s': 'left'}", "up or down"),
+    ):
+        (folder / "mine.py").write_text(OWN.replace("SAID", said))
+        assert main(["tune", "mine.yaml", "yaw.yaml"]) == 2
+        assert message in capsys.readouterr().err
+    (folder / "mine.py").write_text(OWN.replace("SAID", "THRESHOLDS: ClassVar = {'level_deg_s': 'down'}"))
+    assert main(["tune", "mine.yaml", "yaw.yaml", "--false-alarm-rate", "0.1", "--output", "new/mine.yaml"]) == 0
+    assert "false alarms: 2 of these 20" in capsys.readouterr().out
+    assert 10.0 < yaml.safe_load((folder / "new" / "mine.yaml").read_text())["gains"]["level_deg_s"] < 100.0
 
 
 def test_design_prints_a_design_with_its_gamma(folder, capsys):

@@ -2,9 +2,14 @@
 
 import argparse
 import sys
+from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from fddbench.errors import FddbenchError
+
+if TYPE_CHECKING:
+    from fddbench.api.designs import TunedDesign
 
 __all__ = ["design", "tune"]
 
@@ -30,23 +35,54 @@ def design(args: argparse.Namespace) -> int:
 
 
 def tune(args: argparse.Namespace) -> int:
-    """Choose the smallest thresholds that keep a false-alarm rate on the healthy flights of a tuning campaign.
+    """Choose the smallest thresholds that keep a false-alarm target, on the healthy flights of a tuning campaign.
 
-    Writes a new design that says what it was tuned on.
+    Writes a new design that says what it was tuned on, and says what to expect on other flights.
     """
     from fddbench.api.campaigns import read
     from fddbench.api.designs import tune as tuned
 
-    made = tuned(args.design, read(args.campaign, args.overrides), false_alarm_rate=args.false_alarm_rate)
-    output, found = args.output or Path("detectors") / f"{made.name}_tuned.yaml", made.found
+    made = tuned(
+        args.design, read(args.campaign, args.overrides), false_alarm_rate=args.false_alarm_rate,
+        per_flight=args.per_flight, per_hour=args.per_hour, confidence=args.confidence, by=args.by,
+        only=args.only.split(",") if args.only else (),
+    )  # fmt: skip
+    output = args.output or Path("detectors") / f"{made.name}_tuned.yaml"
     _write(output, made.text, force=args.force)
-    print(f"thresholds: {', '.join(f'{value:.6g}' for value in found.thresholds)}")
-    print(
-        f"false alarms: {found.alarms} of these {found.flights} flights ({100.0 * found.alarms / found.flights:.3g} %), asked "
-        f"at most {100.0 * args.false_alarm_rate:g} %; other flights may give more, an evaluation tells"
-    )
+    _say(made)
     print(output)
     return 0
+
+
+def _say(made: "TunedDesign") -> None:
+    """Print what was found and what it promises."""
+    found, per_flight = made.promise, made.target.per == "flight"
+
+    def said(rate: float) -> str:
+        return f"{100.0 * rate:.3g} %" if per_flight else f"{rate:.3g} per hour"
+
+    for key, value in made.thresholds.items():
+        print(f"{key}: {', '.join(f'{each:.6g}' for each in _numbers(value))}")
+    if made.factor is not None:
+        print(
+            f"factor on what the design said: {made.factor:.5g}; {100.0 * (made.resolution or 0.0):.2g} % less is too small"
+        )
+    print(
+        f"false alarms: {found.alarms} of these {found.flights} flights of {found.runs} runs ({said(found.here)}), asked "
+        f"{made.target.words}"
+    )
+    print(
+        f"on other flights: {said(found.expected)} expected, {said(found.low)} to {said(found.high)} with 95 % confidence"
+    )
+    print(f"budget: {found.flights} flights, {made.tried} set{'s' if made.tried > 1 else ''} of thresholds flown")
+
+
+def _numbers(value: Any) -> Iterator[float]:
+    """Numbers of a gain."""
+    if isinstance(value, list):
+        yield from (number for each in value for number in _numbers(each))
+    else:
+        yield float(value)
 
 
 def _write(path: Path, text: str, *, force: bool) -> None:

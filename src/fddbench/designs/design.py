@@ -36,6 +36,17 @@ class SweptGain:
         """Column of the rows that holds the value, ``gain_threshold_deg_s`` or ``factor_thresholds``."""
         return f"{'factor' if self.factor else 'gain'}_{self.key}"
 
+    def applied(self, written: Any) -> Any:
+        """What a file would write instead of what it writes; a factor acts on every number of a list."""
+        if not self.factor:
+            return _plain(self.value)
+        return [self.applied(each) for each in written] if isinstance(written, list) else _plain(self.value * written)
+
+
+def _plain(value: float) -> float | int:
+    """A number as a file writes it: a kind that wants whole numbers takes 3, not 3.0."""
+    return int(value) if float(value).is_integer() else value
+
 
 @dataclass(frozen=True, kw_only=True)
 class Design:

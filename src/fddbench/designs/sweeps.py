@@ -13,7 +13,7 @@ from fddbench.campaign.rules.wording import Finding, say
 from fddbench.designs.design import Design, SweptGain
 from fddbench.errors import FddbenchError, Mistake, did_you_mean
 
-__all__ = ["changed_gains", "variants"]
+__all__ = ["changed_gains", "gain_of", "variants", "with_gains"]
 
 
 def variants(
@@ -41,8 +41,9 @@ def variants(
             )
             continue
         for number, (place, value) in enumerate(_placed(document, at, sweep)):
+            name, swept = f"{design.name}.{key}.{number + 1}", SweptGain(key, value, factor=sweep.scale is not None)
             try:
-                gains = changed_gains(design, key, value, factor=sweep.scale is not None)
+                made = with_gains(design, changed_gains(design, key, swept.applied), name)
             except _NowhereError as error:
                 mistakes.append(document.mistake(at, str(error), key=True))
                 break
@@ -50,25 +51,53 @@ def variants(
                 wrong = Mistake(place, f"{design.name} with {key} {_said(sweep, value)}: {_first(error)}")
                 mistakes += [] if wrong in mistakes else [wrong]
                 continue
-            name, swept = f"{design.name}.{key}.{number + 1}", SweptGain(key, value, factor=sweep.scale is not None)
-            found.append(replace(design, name=name, gains=gains, where=place, swept=swept))
+            found.append(replace(made, where=place, swept=swept))
     return found, mistakes
 
 
-def changed_gains(design: Design, key: str, value: float, *, factor: bool = False) -> BaseModel:
-    """Gains of a design with one of them at a value, or multiplied by a factor, checked by the kind.
+def changed_gains(design: Design, key: str, change: Callable[[Any], Any]) -> dict[str, Any]:
+    """Gains of a design as its file writes them, one of them changed; what the file leaves out has its default.
+
+    Parameters
+    ----------
+    key : str
+        Key of the gain; one inside others by dots, an item of a list by its number from 0.
+    change : callable
+        Makes the new value of the old one.
 
     Raises
     ------
     FddbenchError
         The design has no such gain.
-    pydantic.ValidationError
-        The kind refuses the value.
     """
-    change = (lambda old: _scaled(old, value)) if factor else (lambda _: _plain(value))
-    data = _with(design.written, _dumped(design), tuple(key.split(".")), change, design.name, key)
+    changed: dict[str, Any] = _with(design.written, _dumped(design), tuple(key.split(".")), change, design.name, key)
+    return changed
+
+
+def gain_of(design: Design, key: str) -> Any:
+    """What a design has as this gain, as a file writes it.
+
+    Raises
+    ------
+    FddbenchError
+        The design has no such gain.
+    """
+    held: list[Any] = []
+    changed_gains(design, key, held.append)
+    return held[0]
+
+
+def with_gains(design: Design, written: Mapping[str, Any], name: str) -> Design:
+    """Design of another name with these gains, checked by the kind.
+
+    Raises
+    ------
+    pydantic.ValidationError
+        The kind refuses them.
+    """
     model: type[BaseModel] = design.kind.member.Gains
-    return model.model_validate_json(json.dumps(data), strict=True)
+    gains = model.model_validate_json(json.dumps(written), strict=True)
+    return replace(design, name=name, gains=gains, written=written)
 
 
 class _NowhereError(FddbenchError):
@@ -77,12 +106,10 @@ class _NowhereError(FddbenchError):
 
 def _can_be_scaled(design: Design, key: str) -> bool:
     """Whether a gain holds numbers; one that is not there is told elsewhere."""
-    held: list[Any] = []
     try:
-        _with(design.written, _dumped(design), tuple(key.split(".")), held.append, design.name, key)
+        return _is_numbers(gain_of(design, key))
     except _NowhereError:
         return True
-    return _is_numbers(held[0])
 
 
 def _is_numbers(value: Any) -> bool:
@@ -121,16 +148,6 @@ def _no_gain(part: str, whole: Any, name: str, key: str) -> str:
     )
     there = f"Known there: {', '.join(known)}" if known else "There is nothing inside"
     return " ".join(filter(None, [f"design {name!r} has no gain {key!r}.", did_you_mean(part, known), there]))
-
-
-def _scaled(value: Any, factor: float) -> Any:
-    """A number, or every number of a list, times a factor."""
-    return [_scaled(each, factor) for each in value] if isinstance(value, list) else _plain(value * factor)
-
-
-def _plain(value: float) -> float | int:
-    """A number as a file writes it: a kind that wants whole numbers takes 3, not 3.0."""
-    return int(value) if float(value).is_integer() else value
 
 
 def _placed(document: Document, address: Address, sweep: Sweep) -> Iterator[tuple[str, float]]:

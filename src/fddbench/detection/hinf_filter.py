@@ -1,7 +1,7 @@
 """Residual filter given by its matrices, with an evaluation that isolates: residual i speaks for fault i."""
 
 from types import SimpleNamespace
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
@@ -45,6 +45,7 @@ class HinfFilterGains(BaseModel):
         Whether residual i is made to be fault i itself (T_ref = I), so that its mean estimates the size.
     """
 
+    THRESHOLDS: ClassVar = {"thresholds": "up"}
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     A: Matrix

@@ -1,7 +1,7 @@
 """Kalman filter of one flight condition and a test of its innovations: the textbook monitor that the geometric filters face."""
 
 from types import SimpleNamespace
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
@@ -43,6 +43,7 @@ class KalmanMonitorGains(BaseModel):
         How long the mean must stay beyond it [s].
     """
 
+    THRESHOLDS: ClassVar = {"thresholds": "up"}
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     outputs: Annotated[tuple[ChannelEntry, ...], Field(min_length=1)]

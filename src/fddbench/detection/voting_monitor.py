@@ -1,7 +1,7 @@
 """The baseline: the comparison with the voted signal and its confirmation time, nothing else."""
 
 from types import SimpleNamespace
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
@@ -30,6 +30,7 @@ class VotingMonitorGains(BaseModel):
         How long the flag must stand [s].
     """
 
+    THRESHOLDS: ClassVar = {"flag_threshold_deg_s": "up"}
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     flag_threshold_deg_s: Positive

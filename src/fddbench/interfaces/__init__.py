@@ -20,6 +20,7 @@ from fddbench.interfaces.consequence import Consequence
 from fddbench.interfaces.detector import Detector, Tunable, Verdict, Voter
 from fddbench.interfaces.fault import Fault, FaultBlock, Instant
 from fddbench.interfaces.floats import NEVER, Floats
+from fddbench.interfaces.ideal import IdealModel
 from fddbench.interfaces.loop import FlightFaults, Flights, Loop, Prepared, Sample
 from fddbench.interfaces.recording import QUANTILES, Bands, Recording
 from fddbench.interfaces.scheduling import AffineModel, Channel, Scheduling
@@ -42,6 +43,7 @@ __all__ = [
     "FlightFaults",
     "Flights",
     "Floats",
+    "IdealModel",
     "Instant",
     "Loop",
     "Options",

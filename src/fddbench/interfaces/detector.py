@@ -42,7 +42,9 @@ class Detector(Protocol):
     A class registered under ``fddbench.detectors`` has besides: ``Gains``, the pydantic model of its numbers, and
     ``from_design(gains, bus)``, which makes the detector for a bus or raises `DesignError`. Where gains name members of other
     families, ``Gains.MEMBERS`` says which keys do (``{"scheduling": "scheduling"}``), and the members that are named come as
-    further arguments, ``from_design(gains, bus, scheduling=...)``.
+    further arguments, ``from_design(gains, bus, scheduling=...)``. What ``fddbench tune`` may change is said by
+    ``Gains.THRESHOLDS``, the gains that are thresholds (numbers, or lists of them) and the direction in which each quiets the
+    detector: ``{"limit_deg_s": "up", "false_alarm_share": "down"}``; nothing is tuned that it does not name.
 
     It may have more, and has these otherwise: ``recorded``, the names of what its verdicts show (()); ``watches``, the names
     of the sites it declares (all sites of the bus); ``isolates`` (True; False for one that only detects); ``estimates``, what
@@ -96,7 +98,7 @@ class Detector(Protocol):
 
 @runtime_checkable
 class Tunable(Protocol):
-    """A detector whose thresholds ``fddbench tune`` can choose; its ``Gains`` have ``thresholds``, one per signal.
+    """A detector whose ``Gains`` have ``thresholds``, one per signal, of which ``fddbench tune`` can choose each by itself.
 
     It alarms when one of the `evaluated` signals has stayed above its threshold for `confirm_samples` samples.
     """

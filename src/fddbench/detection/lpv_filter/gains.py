@@ -132,6 +132,7 @@ class LpvFilterGains(_Strict):
     """
 
     MEMBERS: ClassVar = {"scheduling": "scheduling"}
+    THRESHOLDS: ClassVar = {"thresholds": "up"}
 
     scheduling: str | None = None
     outputs: Annotated[tuple[ChannelEntry, ...], Field(min_length=1)]

@@ -1,6 +1,6 @@
 """Numbers of the sliding-mode scheme, checked when a design is read."""
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -51,6 +51,9 @@ class SlidingModeGains(BaseModel):
         Limit of the numerical derivative [deg/s^2]; belongs to the sample time of the design.
     """
 
+    THRESHOLDS: ClassVar = {
+        "threshold_floor_deg_s": "up", "threshold_gain": "up", "flag_threshold_deg_s": "up", "energy_limit_deg_s2": "up",
+    }  # fmt: skip
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     input_lag_s: Positive
