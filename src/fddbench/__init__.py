@@ -10,12 +10,14 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from fddbench.api.bounds import bounds
     from fddbench.api.campaigns import plan, read, run
+    from fddbench.api.comparing import compare
     from fddbench.api.designs import tune
     from fddbench.api.findings import finding
     from fddbench.api.flights import score, signals
     from fddbench.api.pages import report
     from fddbench.api.replaying import table_of
-    from fddbench.api.tables import alarms, columns, detectable, load, load_events, summary
+    from fddbench.api.summaries import summary
+    from fddbench.api.tables import alarms, columns, detectable, load, load_events
     from fddbench.api.worst import worst
 
 __all__ = [
@@ -23,6 +25,7 @@ __all__ = [
     "alarms",
     "bounds",
     "columns",
+    "compare",
     "detectable",
     "finding",
     "load",
@@ -42,10 +45,12 @@ __version__ = "0.1.0"
 
 _ROOMS = {
     **dict.fromkeys(("plan", "read", "run"), "campaigns"),
-    **dict.fromkeys(("alarms", "columns", "detectable", "load", "load_events", "summary"), "tables"),
+    **dict.fromkeys(("alarms", "columns", "detectable", "load", "load_events"), "tables"),
     **dict.fromkeys(("score", "signals"), "flights"),
+    "compare": "comparing",
     "bounds": "bounds",
     "finding": "findings",
+    "summary": "summaries",
     "report": "pages",
     "table_of": "replaying",
     "tune": "designs",
