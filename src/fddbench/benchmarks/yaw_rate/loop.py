@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from types import SimpleNamespace
 
 from fddbench.benchmarks.yaw_rate.breaking import Breaking, Broken
+from fddbench.benchmarks.yaw_rate.consequences import LATERAL_CONSEQUENCES
 from fddbench.benchmarks.yaw_rate.control_law import LateralLaw, LawState
 from fddbench.benchmarks.yaw_rate.plant import LateralPlant, Motion
 from fddbench.benchmarks.yaw_rate.sensors import Noise, Readings
@@ -95,6 +96,7 @@ class LateralLoop:
         "gust_m_s",
         "bank_command_deg",
     )
+    consequences = LATERAL_CONSEQUENCES
 
     def __init__(
         self,

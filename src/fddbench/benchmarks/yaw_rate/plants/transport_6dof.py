@@ -132,7 +132,7 @@ class Transport6Dof:
 
         flown = rk4(rate, x.rigid, step_s=self.sample_s, substeps=self.substeps)
         felt = forces(aircraft, c.body, air, begun, controls, moving, thrust_ratio)
-        motion = motion_of(begun, air, felt, c.wind_north_m_s, c.wind_east_m_s)
+        motion = motion_of(begun, air, felt, c.wind_north_m_s, c.wind_east_m_s, mass_kg=c.body.mass_kg)
         # a heading that goes on beyond half a turn
         moved = motion.psi_rad - x.psi_rad
         turns = x.turns + np.where(moved < -np.pi, 1.0, 0.0) - np.where(moved > np.pi, 1.0, 0.0)
