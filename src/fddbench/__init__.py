@@ -8,16 +8,20 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from fddbench.api.bounds import bounds
     from fddbench.api.campaigns import plan, read, run
     from fddbench.api.designs import tune
     from fddbench.api.findings import finding
     from fddbench.api.flights import score, signals
     from fddbench.api.pages import report
+    from fddbench.api.replaying import table_of
     from fddbench.api.tables import alarms, columns, detectable, load, load_events, summary
+    from fddbench.api.worst import worst
 
 __all__ = [
     "__version__",
     "alarms",
+    "bounds",
     "columns",
     "detectable",
     "finding",
@@ -30,7 +34,9 @@ __all__ = [
     "score",
     "signals",
     "summary",
+    "table_of",
     "tune",
+    "worst",
 ]
 __version__ = "0.1.0"
 
@@ -38,9 +44,12 @@ _ROOMS = {
     **dict.fromkeys(("plan", "read", "run"), "campaigns"),
     **dict.fromkeys(("alarms", "columns", "detectable", "load", "load_events", "summary"), "tables"),
     **dict.fromkeys(("score", "signals"), "flights"),
+    "bounds": "bounds",
     "finding": "findings",
     "report": "pages",
+    "table_of": "replaying",
     "tune": "designs",
+    "worst": "worst",
 }
 
 

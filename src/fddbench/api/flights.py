@@ -16,39 +16,65 @@ from fddbench.runner.declared import declared_rows
 from fddbench.runner.fingerprint import frozen
 from fddbench.runner.replay import replay_campaign
 
-__all__ = ["score", "signals"]
+__all__ = ["campaign_of", "score", "signals"]
 
 
-def signals(source: Campaign | str | Path, scenario: str, cases: Sequence[Address] | None = None) -> Recording:
+def signals(
+    source: Campaign | str | Path, which: str | Sequence[str], cases: Sequence[Address] | None = None
+) -> Recording:
     """Signals of flights of one scenario, flown again bit for bit.
 
     Parameters
     ----------
     source : Campaign, str or Path
         A campaign, its file or name, or a folder of results.
-    scenario : str
-        Name of the scenario.
+    which : str or sequence of str
+        Names of flights as in the column ``case``, ``"jam_a/3/0/17"``, all of one scenario; or the name of a scenario.
     cases : sequence, optional
-        Names as in the column ``case``, ``"jam_a/3/0/17"``, or (point, level, run); all of the scenario by default.
+        With the name of a scenario: which of its flights, by their names or as (point, level, run); all by default.
 
     Returns
     -------
     Recording
-        Measured and true signals by name with unit, (n_time, n_cases), and what every detector shows.
+        Measured and true signals by name with unit, (n_time, n_cases), and what every detector shows and declares.
 
     Raises
     ------
     FddbenchError
         There is no such scenario or case, or none of the flights can be flown.
+
+    Examples
+    --------
+    >>> signals("smoke", "jam_b/0/0/3").signals["r_deg_s_1"].shape
+    (1201, 1)
     """
-    campaign = _campaign(source)
+    campaign = campaign_of(source)
     names = [entry.name for entry in campaign.scenarios]
+    scenario, chosen = _chosen(which, cases)
     if scenario not in names:
         raise FddbenchError(f"campaign {campaign.name!r} has no scenario {scenario!r}; known: {', '.join(names)}")
-    chosen = None if cases is None else {scenario: list(cases)}
     for recording in replay_campaign(campaign, chosen, scenarios=[scenario]):
         return recording
     raise FddbenchError(f"none of these flights of {scenario!r} can be flown: they are infeasible")
+
+
+def _chosen(
+    which: str | Sequence[str], cases: Sequence[Address] | None
+) -> tuple[str, dict[str, Sequence[Address]] | None]:
+    """Scenario, and which of its flights; None for all."""
+    if isinstance(which, str) and "/" not in which:
+        return which, None if cases is None else {which: list(cases)}
+    flights = [which] if isinstance(which, str) else list(which)
+    if cases is not None or not flights or not all(isinstance(name, str) and "/" in name for name in flights):
+        raise FddbenchError(
+            f"name flights as in the column case, 'jam_a/3/0/17', or a scenario and its cases; got {which!r}"
+        )
+    scenarios = list(dict.fromkeys(name.split("/")[0] for name in flights))
+    if len(scenarios) > 1:
+        raise FddbenchError(
+            f"flights of one scenario at a time, for they have one length; these are of {', '.join(scenarios)}"
+        )
+    return scenarios[0], {scenarios[0]: flights}
 
 
 def score(
@@ -95,7 +121,7 @@ def score(
     FddbenchError
         Arrays of another shape than the flights have.
     """
-    assembly = assemble(_campaign(source))
+    assembly = assemble(campaign_of(source))
     table = declared_rows(
         assembly, assembly.plan.numbers(cases), declared, alarm=alarm, residual=residual, estimate=estimate,
         estimates=estimates, watches=watches, name=name,
@@ -104,7 +130,7 @@ def score(
     return frame
 
 
-def _campaign(source: Campaign | str | Path) -> Campaign:
+def campaign_of(source: Campaign | str | Path) -> Campaign:
     """Campaign itself, of a folder of results, or of a file."""
     if isinstance(source, Campaign):
         return source

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 import yaml
 
+from fddbench.api.bounds import bounds_of
 from fddbench.api.detectability import detectable_of
 from fddbench.campaign.meaning import Campaign
 from fddbench.reporting.bands import names_in
@@ -61,6 +62,7 @@ def report_data(folder: Path) -> ReportData:
                 "about": d.about,
                 "sha256": d.sha256,
                 "load": loads[d.name],
+                "sees": assembly.detectors[d.name].sees,
                 "gamma": d.gamma,
             }
             for d in campaign.designs
@@ -85,6 +87,7 @@ def report_data(folder: Path) -> ReportData:
         limits_from=bench.limits_from,
         partial=found.sentence if found.partial else "",
         detectable=detectable_of(rows, campaign),
+        bounds=bounds_of(campaign),
     )
 
 

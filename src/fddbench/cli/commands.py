@@ -10,7 +10,7 @@ from fddbench.errors import FddbenchError
 if TYPE_CHECKING:
     from fddbench.runner.assembly import Assembly
 
-__all__ = ["check", "cost", "finding", "init", "list_", "report", "run", "schema", "scores"]
+__all__ = ["bound", "check", "cost", "finding", "init", "list_", "report", "run", "schema", "scores"]
 
 
 def run(args: argparse.Namespace) -> int:
@@ -50,14 +50,25 @@ def run(args: argparse.Namespace) -> int:
 
 def _summary(folder: Path, *, wide: bool, failed: bool) -> None:
     """Print the summary table of a folder of results, and which of its flights failed."""
+    from fddbench.api.bounds import bounds
     from fddbench.api.tables import overview
+    from fddbench.metrics.bound import breaches, with_bounds
     from fddbench.reporting.terminal import to_text
     from fddbench.results.whole import holdings
 
     found = holdings(folder)
     if found.partial:
         print(f"not the whole campaign: {found.sentence}")
-    print(to_text(*overview(folder), wide=wide))
+    summary, alarms = overview(folder)
+    try:
+        stated = bounds(folder)
+    except FddbenchError as error:  # of somebody else's benchmark; what was flown is shown all the same
+        print(f"fddbench: no bound: {error}", file=sys.stderr)
+        print(to_text(summary, alarms, wide=wide))
+    else:
+        print(to_text(with_bounds(summary, stated), alarms, wide=wide))
+        for sentence in breaches(summary, stated):
+            print(f"above its bound: {sentence}")
     if failed:
         _failures(folder)
 
@@ -79,6 +90,18 @@ def report(args: argparse.Namespace) -> int:
     from fddbench.api.pages import report as write
 
     print(write(args.folder, args.output))
+    return 0
+
+
+def bound(args: argparse.Namespace) -> int:
+    """Print how well any detector can do: the ideal test that knows model, fault and time.
+
+    By scenario and by what it is supposed to know: detectability d, and the probability P_D that it finds the faulty sites.
+    """
+    from fddbench.api.bounds import bounds
+    from fddbench.reporting.bounds import bounds_text
+
+    print(bounds_text(bounds(args.campaign, p_fa=args.p_fa, flights=args.flights)))
     return 0
 
 

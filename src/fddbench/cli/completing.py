@@ -87,5 +87,6 @@ _COMPLETERS: dict[str, Callable[..., list[str]]] = {
     "design": _designs,
     "detector": _designs,
     "folder": _results,
+    "source": _results,
     "subject": _subjects,
 }

@@ -12,7 +12,7 @@ from textwrap import fill
 from typing import Any
 
 from fddbench import __version__
-from fddbench.cli import aircraft, commands, completing, designing
+from fddbench.cli import aircraft, commands, completing, designing, looking
 from fddbench.errors import FddbenchError, ResultsWarning
 
 __all__ = ["entry", "main", "parser"]
@@ -48,6 +48,7 @@ def parser() -> argparse.ArgumentParser:
     run.add_argument("--wide", action="store_true", help="every column of the table, as wide as it is")
 
     _reading(subs)
+    _looking(subs)
 
     cost = _add(subs, "cost", commands.cost)
     cost.add_argument("detector", metavar="DETECTOR", help="name of a design")
@@ -56,6 +57,8 @@ def parser() -> argparse.ArgumentParser:
         type=Path, metavar="CAMPAIGN.yaml",
         help="campaign whose benchmark and sample time count (default: the first shipped one that feeds it)",
     )  # fmt: skip
+
+    _bound(_add(subs, "bound", commands.bound))
 
     check = _add(subs, "check", commands.check)
     _campaign(check)
@@ -95,6 +98,34 @@ def _reading(subs) -> None:  # type: ignore[no-untyped-def]
     finding.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
 
 
+def _looking(subs) -> None:  # type: ignore[no-untyped-def]
+    """Commands that look at single flights."""
+    replay = _add(subs, "replay", looking.replay)
+    replay.add_argument("source", type=Path, metavar="DIR", help="folder of results, or a campaign")
+    replay.add_argument("case", metavar="CASE", help="name of the flight as in the column case, jam_a/3/0/17")
+    replay.add_argument(
+        "--detector", action="append", default=[], metavar="NAME", help="show this detector alone (may be repeated)"
+    )
+    replay.add_argument(
+        "--signal",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="draw this signal (may be repeated; default: a few)",
+    )
+    replay.add_argument("--plot", type=Path, metavar="FILE", help="picture to write: .html, .png, .svg or .pdf")
+    replay.add_argument("--to", type=Path, metavar="FILE", help="table to write: .csv, .parquet, .mat or .h5")
+
+    worst = _add(subs, "worst", looking.worst)
+    worst.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+    worst.add_argument(
+        "--detector", action="append", default=[], metavar="NAME", help="this detector alone (may be repeated)"
+    )
+    worst.add_argument(
+        "--most", type=_jobs, default=3, metavar="N", help="flights of a kind in a scenario (default: 3)"
+    )
+
+
 def _asking(subs) -> None:  # type: ignore[no-untyped-def]
     """Commands that tell what there is, and that give something to start from."""
     ask = _add(subs, "list", commands.list_)
@@ -122,6 +153,25 @@ def _campaign(command: argparse.ArgumentParser) -> None:
         "--set", action="append", default=[], metavar="PATH=VALUE", dest="overrides",
         help="change a value of the campaign, e.g. dispersions.monte_carlo.runs=10 (may be repeated)",
     )  # fmt: skip
+
+
+def _bound(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "campaign",
+        type=Path,
+        metavar="CAMPAIGN.yaml",
+        help="campaign file, name of a shipped one, or folder of results",
+    )
+    command.add_argument(
+        "--p-fa", type=_probability, default=1e-6, metavar="P", help="false alarms of one decision (default: 1e-6)"
+    )
+    command.add_argument(
+        "--flights",
+        type=_flights,
+        default=25,
+        metavar="N",
+        help="flights of a scenario that are looked at (default: 25)",
+    )
 
 
 def _tune(command: argparse.ArgumentParser) -> None:
@@ -164,6 +214,24 @@ def _share(text: str) -> float:
     if not 0.0 <= value < 1.0:
         raise argparse.ArgumentTypeError(f"need a share from 0 to below 1, e.g. 0.01 for 1 %, got {text!r}")
     return value
+
+
+def _probability(text: str) -> float:
+    """Probability of a false alarm."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = -1.0
+    if not 0.0 < value < 1.0:
+        raise argparse.ArgumentTypeError(f"need a probability above 0 and below 1, e.g. 1e-6, got {text!r}")
+    return value
+
+
+def _flights(text: str) -> int:
+    """Number of flights."""
+    if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= 10_000:
+        raise argparse.ArgumentTypeError(f"need a whole number from 1 to 10000, got {text!r}")
+    return int(text)
 
 
 def _jobs(text: str) -> int:

@@ -44,6 +44,7 @@ class Adapted:
         self.recorded: tuple[str, ...] = getattr(detector, "recorded", ())
         self.watches: tuple[str, ...] = tuple(getattr(detector, "watches", bus.names))
         self.isolates: bool = bool(getattr(detector, "isolates", True))
+        self.sees: str = str(getattr(detector, "sees", "sensors"))
         self.estimates: str | None = getattr(detector, "estimates", None)
         self.batched: bool = bool(getattr(detector, "batched", False))
 

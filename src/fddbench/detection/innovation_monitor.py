@@ -1,68 +1,42 @@
 """Kalman filter on the yaw-moment equation and a test of the innovation of every sensor."""
 
 from types import SimpleNamespace
-from typing import Annotated, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field
 
 from fddbench.blocks.block import NO_DRAWS, NOTHING
 from fddbench.blocks.drawn import Draws
 from fddbench.blocks.functions import exp
 from fddbench.blocks.layout import Layout, Nothing, Rows, record
 from fddbench.blocks.linear import largest
-from fddbench.detection.decision import (
-    Confirmation,
-    ConfirmationState,
-    Miscompare,
-    MiscompareState,
-    live_mean,
-    live_sensors,
-)
-from fddbench.detection.yaw_moment import NEEDS, YawMoment, YawMomentFilter, YawMomentGains, YawMomentState
+from fddbench.detection.yaw_moment import NEEDS, Watch, WatchGains, WatchState
+from fddbench.detection.yaw_moment.gains import Positive
 from fddbench.interfaces import Bus, Verdict
 
 __all__ = ["InnovationMonitor", "InnovationMonitorGains"]
 
-Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
-NonNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
 
-
-class InnovationMonitorGains(BaseModel):
-    """Filter and test.
+class InnovationMonitorGains(WatchGains):
+    """Filter, comparison, and test.
 
     Attributes
     ----------
-    filter : YawMomentGains
-        What the filter believes.
-    differ_deg_s : float
-        Root mean square difference of two sensors that is none [deg/s].
-    mean_s : float
-        Time constant of the mean squares [s].
     innovation_threshold : float
         Largest mean of ``e^2 / S`` of a sensor that is no fault [-]; 1 in the long run.
-    confirm_s : float
-        How long a sensor must be suspected [s].
     """
 
     THRESHOLDS: ClassVar = {"differ_deg_s": "up", "innovation_threshold": "up"}
-    model_config = ConfigDict(extra="forbid", frozen=True)
 
-    filter: YawMomentGains
-    differ_deg_s: Positive
-    mean_s: Positive
     innovation_threshold: Positive
-    confirm_s: NonNegative
 
 
 @record
 class InnovationMonitorState:
-    """Filter; mean squares of the innovations [-]; comparison; declarations."""
+    """Filter and decision; mean squares of the innovations [-], a row a sensor."""
 
-    filter: YawMomentState
+    watch: WatchState
     mean_square: Rows
-    compared: MiscompareState
-    confirmed: ConfirmationState
 
 
 class InnovationMonitor:
@@ -99,18 +73,11 @@ class InnovationMonitor:
     draws: Draws[Any] = NO_DRAWS
 
     def __init__(self, gains: InnovationMonitorGains, bus: Bus) -> None:
-        T, self.watches = bus.sample_s, bus.redundant("r_deg_s")
-        n, self.threshold = len(self.watches), gains.innovation_threshold
-        self.moment, self.filter = YawMoment(), YawMomentFilter(gains.filter, T)
-        self.miscompare = Miscompare(gains.differ_deg_s, mean_s=gains.mean_s, sample_s=T, n_sensors=n)
-        self.confirmation = Confirmation(gains.confirm_s, sample_s=T, n_sites=n)
-        self.share = float(1.0 - exp(np.array(-T / gains.mean_s)))
-        self.states = Layout(
-            InnovationMonitorState(
-                filter=self.filter.states.shape, mean_square=n, compared=self.miscompare.states.shape,
-                confirmed=self.confirmation.states.shape,
-            )
-        )  # fmt: skip
+        self.watches, self.threshold = bus.redundant("r_deg_s"), gains.innovation_threshold
+        n = len(self.watches)
+        self.watch = Watch(gains, sample_s=bus.sample_s, n_sensors=n)
+        self.share = float(1.0 - exp(np.array(-bus.sample_s / gains.mean_s)))
+        self.states = Layout(InnovationMonitorState(watch=self.watch.states.shape, mean_square=n))
 
     @classmethod
     def from_design(cls, gains: InnovationMonitorGains, bus: Bus) -> "InnovationMonitor":
@@ -120,25 +87,16 @@ class InnovationMonitor:
 
     def start(self, c: Nothing) -> InnovationMonitorState:
         """Nothing declared."""
-        return InnovationMonitorState(
-            filter=self.filter.start(c), mean_square=0.0, compared=self.miscompare.start(c),
-            confirmed=self.confirmation.start(c),
-        )  # fmt: skip
+        return InnovationMonitorState(watch=self.watch.start(c), mean_square=0.0)
 
     def step(
         self, x: InnovationMonitorState, c: Nothing, n: Nothing, measured: SimpleNamespace
     ) -> tuple[InnovationMonitorState, Verdict]:
         """Verdict after one sample."""
-        r_deg_s, out = measured.r_deg_s, x.confirmed.declared
-        innovation = r_deg_s - x.filter.r_deg_s
-        normalised = innovation * innovation / self.filter.innovation_variance(x.filter)
-        mean_square = x.mean_square + self.share * (normalised - x.mean_square)
-        compared, found = self.miscompare.step(x.compared, c, n, r_deg_s, mean_square, out)
-        suspected = found.suspected & (mean_square > self.threshold)
-        confirmed, declared = self.confirmation.step(x.confirmed, c, n, suspected)
-        live = live_mean(r_deg_s, declared), live_sensors(declared)
-        after, _ = self.filter.step(x.filter, c, n, *live, ~found.differ, self.moment.parts(measured))
-        state = InnovationMonitorState(filter=after, mean_square=mean_square, compared=compared, confirmed=confirmed)
+        e, S = self.watch.innovations(x.watch, measured.r_deg_s)
+        mean_square = x.mean_square + self.share * (e * e / S - x.mean_square)
+        watch, declared, found = self.watch.step(x.watch, c, n, measured, mean_square, mean_square > self.threshold)
         ratio = largest(mean_square) / self.threshold
-        shown = {"innovation_ratio": ratio, "difference_ratio": found.ratio, "predicted_deg_s": x.filter.r_deg_s}
-        return state, Verdict(declared, np.minimum(ratio, found.ratio), signals=shown)
+        shown = {"innovation_ratio": ratio, "difference_ratio": found.ratio, "predicted_deg_s": x.watch.filter.r_deg_s}
+        after = InnovationMonitorState(watch=watch, mean_square=mean_square)
+        return after, Verdict(declared, np.minimum(ratio, found.ratio), signals=shown)

@@ -19,6 +19,7 @@ from fddbench.interfaces.bus import Bus
 from fddbench.interfaces.detector import Detector, Tunable, Verdict, Voter
 from fddbench.interfaces.fault import Fault, FaultBlock, Instant
 from fddbench.interfaces.floats import NEVER, Floats
+from fddbench.interfaces.ideal import IdealModel
 from fddbench.interfaces.loop import FlightFaults, Flights, Loop, Prepared, Sample
 from fddbench.interfaces.recording import QUANTILES, Bands, Recording
 from fddbench.interfaces.scheduling import AffineModel, Channel, Scheduling
@@ -40,6 +41,7 @@ __all__ = [
     "FlightFaults",
     "Flights",
     "Floats",
+    "IdealModel",
     "Instant",
     "Loop",
     "Options",

@@ -165,7 +165,8 @@ class Benchmark(Protocol):
     and ``iterations``, the printed course of an optimisation: files of ``reports/published`` by their names ("": none);
     ``detectability``, the `Detectability` maps that are drawn (none); a method ``derived(chosen, parameters)``, more numbers of
     flights by name with unit, (n_cases,) arrays (a trim, say), of the chosen options by key and of the parameters of flights,
-    (n_cases,) arrays by name (none).
+    (n_cases,) arrays by name (none); a method ``ideal(chosen, parameters, sample_s)``, by name the `IdealModel` of such
+    flights that the bound stands on, the best known first, or in a sentence why there is none (none).
     """
 
     name: str

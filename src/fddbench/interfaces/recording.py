@@ -1,7 +1,7 @@
 """Signals of flights that were flown again."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from fddbench.interfaces.floats import Floats
 
@@ -28,7 +28,9 @@ class Recording:
     signals : mapping of str to (n_time, n_cases) arrays
         Measured and true signals by name with unit; a signal of several rows is numbered from 1 (``r_deg_s_1``).
     detectors : mapping of str to mapping of str to (n_time, n_cases) arrays
-        Per detector ``n_declared``, ``residual`` and what it announced in ``recorded``.
+        Per detector ``n_declared``, ``alarm``, ``residual`` and what it announced in ``recorded``.
+    declared : mapping of str to mapping of str to (n_time, n_cases) arrays
+        Per detector and fault site 1 where it is declared, else 0.
     """
 
     scenario: str
@@ -37,6 +39,7 @@ class Recording:
     onset_s: Floats | None
     signals: Mapping[str, Floats]
     detectors: Mapping[str, Mapping[str, Floats]]
+    declared: Mapping[str, Mapping[str, Floats]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True)

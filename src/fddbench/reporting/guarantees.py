@@ -35,8 +35,10 @@ def guarantee_lines(rows: pd.DataFrame, events: pd.DataFrame, designs: Sequence[
             _share(sure, "wrong_site"),
             *_of_events(own[decided(own)]),
         ]
-        lines.append((float(_is(sure, "outcome", "right").sum()) / max(len(sure), 1), cells))
-    return [cells for _, cells in sorted(lines, key=lambda line: -line[0])]
+        voted = any(design["name"] == name and design.get("sees") == "voted" for design in designs)
+        lines.append((voted, -float(_is(sure, "outcome", "right").sum()) / max(len(sure), 1), cells))
+    # those that see the voted signal alone come by themselves
+    return [cells for _, _, cells in sorted(lines, key=lambda line: line[:2])]
 
 
 def _of_events(own: pd.DataFrame) -> list[Cell]:

@@ -10,10 +10,12 @@ import pandas as pd
 
 from fddbench.interfaces import Bands, Recording, Response
 from fddbench.metrics.alarms import summarize_alarms
+from fddbench.metrics.bound import breaches, with_bounds
 from fddbench.metrics.summary import summarize
 from fddbench.reporting import detectability, failures, figures, headlines, infeasible, signals, tables
 from fddbench.reporting.bands import band_pictures
 from fddbench.reporting.beside import beside
+from fddbench.reporting.bounds import HEADS, bound_lines
 from fddbench.reporting.guarantees import guarantee_lines
 from fddbench.reporting.published import Iterations, Published
 from fddbench.reporting.reasons import REASONS
@@ -37,7 +39,7 @@ class ReportData:
     provenance : mapping of str to str
         Versions, machine, date, wall time, hashes: shown as it is.
     designs : sequence of mapping
-        Per detector name, kind, source, about, load (of a step, in words), sha256.
+        Per detector name, kind, source, about, load (of a step, in words), sees ("sensors" or "voted"), sha256.
     recordings : sequence of Recording
         Re-flown cases, one recording per scenario.
     published : sequence of Published
@@ -56,6 +58,8 @@ class ReportData:
         How many flights of how many the folder holds, "" when all.
     detectable : DataFrame or None
         Maps of detectability, lines of `fddbench.metrics.detectable.DETECTABLE`.
+    bounds : DataFrame or None
+        What the ideal test finds, lines of `fddbench.metrics.bound.BOUNDS`.
     bands : sequence of Bands
         All flights of scenarios as quantiles over time, where the campaign asks for them.
     responses, shown : sequences
@@ -80,6 +84,7 @@ class ReportData:
     in_sample: Sequence[str] = ()
     partial: str = ""
     detectable: pd.DataFrame | None = None
+    bounds: pd.DataFrame | None = None
     bands: Sequence[Bands] = ()
     responses: Sequence[Response] = ()
     shown: Sequence[str] = ()
@@ -110,7 +115,9 @@ def page_html(report: ReportData) -> str:
 
 def _content(report: ReportData) -> dict[str, Any]:
     rows = report.rows
-    summary = summarize(rows, in_sample=report.in_sample)
+    summary = _with_sight(summarize(rows, in_sample=report.in_sample), report.designs)
+    if report.bounds is not None:
+        summary = with_bounds(summary, report.bounds)
     alarms = summarize_alarms(rows, in_sample=report.in_sample)
     compared = [found for table in report.published if (found := beside(summary, table)) is not None]
     reasons = tables.reason_lines(rows)
@@ -129,6 +136,7 @@ def _content(report: ReportData) -> dict[str, Any]:
         "guarantees": guarantee_lines(rows, report.events, report.designs),
         "iterations": report.iterations,
         "limits_from": report.limits_from,
+        **_bounds(summary, report.bounds),
         "compared": compared,
         "curves": figures.detection_curves(rows),
         "pictures": [p for r in report.recordings if r.cases for p in [_picture(r, rows)] if p["png"] is not None],
@@ -149,6 +157,19 @@ def _content(report: ReportData) -> dict[str, Any]:
         "provenance": report.provenance,
         "designs": report.designs,
     }
+
+
+def _with_sight(summary: pd.DataFrame, designs: Sequence[Mapping[str, Any]]) -> pd.DataFrame:
+    """A summary with what each detector sees, as its column ``sees``."""
+    sight = {design["name"]: design.get("sees", "sensors") for design in designs}
+    return summary.assign(sees=[sight.get(name, "sensors") for name in summary["detector"]])
+
+
+def _bounds(summary: pd.DataFrame, stated: pd.DataFrame | None) -> dict[str, Any]:
+    """What the ideal test finds, and the scores that are better than that; empty without a faulty scenario."""
+    if stated is None or stated.empty:
+        return {"bounds": [], "bound_heads": (), "breaches": []}
+    return {"bounds": bound_lines(stated), "bound_heads": HEADS, "breaches": breaches(summary, stated)}
 
 
 def _detectability(maps: pd.DataFrame | None, alarms: pd.DataFrame) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 import base64
 import io
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,7 +12,7 @@ from fddbench.interfaces import Floats
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["INK", "MUTED", "ORDINARY", "WARNING", "colour", "dashes", "thinned", "to_png"]
+__all__ = ["INK", "MUTED", "ORDINARY", "WARNING", "colour", "dashes", "drawn", "thinned", "to_png"]
 
 INK, MUTED, ORDINARY, WARNING = "#1f2933", "#7b8794", "#9fb3c8", "#b3261e"
 # Okabe and Ito (2008): told apart by the colour blind and in grey.
@@ -59,7 +59,16 @@ def dashes(i: int) -> Any:
 
 
 def to_png(draw: Callable[["Figure"], None], *, width_in: float, height_in: float) -> str | None:
-    """Picture drawn by `draw` on a fresh figure, as base64 text of a PNG; None for numbers that no axis can hold.
+    """Picture drawn by `draw` on a fresh figure, as base64 text of a PNG; None for numbers that no axis can hold."""
+    try:
+        content = drawn(draw, kind="png", width_in=width_in, height_in=height_in)
+    except (ValueError, OverflowError):  # sizes of 1e308 overflow the limits of an axis: one picture less
+        return None
+    return base64.b64encode(content).decode("ascii")
+
+
+def drawn(draw: Callable[["Figure"], None], *, kind: str, width_in: float, height_in: float) -> bytes:
+    """Picture drawn by `draw` on a fresh figure as the content of a file, ``"png"``, ``"svg"`` or ``"pdf"``, without a date.
 
     Drawn by Agg without pyplot: nothing global is touched and nothing has to be closed.
     """
@@ -67,17 +76,22 @@ def to_png(draw: Callable[["Figure"], None], *, width_in: float, height_in: floa
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    with mpl.rc_context(_STYLE):
+    with mpl.rc_context({**_STYLE, "svg.hashsalt": "fddbench"}):
         figure = Figure(figsize=(width_in, height_in), dpi=130, layout="constrained")
         FigureCanvasAgg(figure)
         stream = io.BytesIO()
-        try:
-            with np.errstate(all="ignore"):
-                draw(figure)
-                figure.savefig(stream, format="png", metadata={"Software": None}, pil_kwargs={"compress_level": 9})
-        except (ValueError, OverflowError):  # sizes of 1e308 overflow the limits of an axis: one picture less
-            return None
-    return base64.b64encode(stream.getvalue()).decode("ascii")
+        with np.errstate(all="ignore"):
+            draw(figure)
+            figure.savefig(stream, format=kind, **_PLAIN[kind])
+    return stream.getvalue()
+
+
+_PLAIN: Mapping[str, dict[str, Any]] = {
+    "png": {"metadata": {"Software": None}, "pil_kwargs": {"compress_level": 9}},
+    "svg": {"metadata": {"Date": None}},
+    "pdf": {"metadata": {"CreationDate": None}},
+}
+"""How each kind of file is written with the same bytes for the same picture."""
 
 
 def thinned(time_s: Floats, values: Floats, blocks: int = 500) -> tuple[Floats, Floats]:

@@ -82,7 +82,7 @@ def signal_panels(signals: Mapping[str, Floats]) -> list[list[str]]:
     for name in signals:
         if "threshold" in name and panels:
             panels[-1].append(name)
-        elif "threshold" not in name and name not in ("n_declared", "residual"):
+        elif "threshold" not in name and name not in ("n_declared", "alarm", "residual"):
             panels.append([name])
     if not any(len(panel) > 1 for panel in panels):
         panels.insert(0, ["residual"])

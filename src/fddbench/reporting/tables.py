@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from fddbench.metrics.bound import MOST_D
 from fddbench.metrics.shares import decided, share
 from fddbench.reporting.formats import DASH, count, interval, percent, present, rate, seconds
 
@@ -34,7 +35,7 @@ class Cell:
 
 
 RESULTS = (
-    *("flown", "healthy site<br>declared", "right", "late", "missed", "unde-<br>cided", "false<br>alarm"),
+    *("flown", "healthy site<br>declared", "right", "bound", "late", "missed", "unde-<br>cided", "false<br>alarm"),
     *("false alarms of<br>distinct flights", "per hour"),
 )
 QUALITY = (
@@ -67,7 +68,7 @@ def _grouped(summary: pd.DataFrame, cells_of: Callable[[Line], list[Cell]]) -> l
     spans = summary.groupby("scenario", sort=False).size().to_dict()
     lines, previous = [], None
     for line in summary.to_dict("records"):
-        cells = [Cell(line["detector"], "in sample" if line["in_sample"] else ""), *cells_of(line)]
+        cells = [Cell(line["detector"], _notes(line)), *cells_of(line)]
         if line["scenario"] != previous:
             note = "healthy" if line["healthy"] else f"limit {_limit(line)}"
             note += f", pools {line['pools']}" if present(line["pools"]) else ""
@@ -75,6 +76,12 @@ def _grouped(summary: pd.DataFrame, cells_of: Callable[[Line], list[Cell]]) -> l
         previous = line["scenario"]
         lines.append(cells)
     return lines
+
+
+def _notes(line: Line) -> str:
+    """What a reader must know who compares this detector with others."""
+    voted = line.get("sees") == "voted"
+    return ", ".join(filter(None, ("in sample" if line["in_sample"] else "", "sees the voted signal" if voted else "")))
 
 
 def _limit(line: Line) -> str:
@@ -89,6 +96,7 @@ def _result(line: Line) -> list[Cell]:
         Cell(f"{count(line['flown'])}\u00a0of\u00a0{count(line['flights'])}", ", ".join(lost)),
         _counted(line, "wrong_site"),
         _right(line),
+        _bound(line),
         *(Cell(count(line[name]), alarm=name != "undecided" and _some(line[name])) for name in _REST),
         Cell(f"{count(line['alarms'])}\u00a0of\u00a0{count(line['distinct_flights'])}", _ends(line, "alarms")),
         Cell(rate(line["false_alarm_per_hour"]), hourly),
@@ -136,6 +144,15 @@ def _right(line: Line) -> Cell:
         f"{percent(line['right_percent'])} %",
         f"{count(line['right'])} of {count(line['decided'])}{f': {ends}' if ends else ''}",
     )
+
+
+def _bound(line: Line) -> Cell:
+    """Largest share of right flights that any detector can have."""
+    share = line.get("bound_percent")
+    if not present(share):
+        return Cell(DASH)
+    most = "≥ " if line["bound_d"] >= MOST_D else ""
+    return Cell(f"{percent(share)} %", f"d {most}{line['bound_d']:.3g}")
 
 
 def reason_lines(rows: pd.DataFrame) -> list[list[Cell]]:

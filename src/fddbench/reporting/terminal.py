@@ -13,6 +13,7 @@ __all__ = ["to_text"]
 
 _WIDTH = 80
 _LEAST_NAME = 16
+_ALL_PERCENT = 99.95  # a bound that says nothing is left to the wide table
 Line = dict[Any, Any]
 
 
@@ -38,11 +39,13 @@ def _number(name: str, form: Callable[[Any], str] = count) -> Callable[[Line], s
     return lambda line: form(line[name])
 
 
+_BOUND_LEAVES = 9
 _OUTCOMES = (
     _Column("flown", lambda line: f"{line['flown']}/{line['flights']}", 3),
     _Column("wrong", _number("wrong_site")),
     _Column("right", lambda line: count(line["quiet"] if line["healthy"] else line["right"])),
     _Column("right % [95 %]", _share("right"), 2),
+    _Column("bound", lambda line: percent(line.get("bound_percent")), _BOUND_LEAVES),
     _Column("late", _number("late")),
     _Column("miss", _number("missed")),
     _Column("und.", _number("undecided")),
@@ -73,6 +76,7 @@ _NOTE = (
     "quiet; und.: ended before the limit, in no rate; false: alarm before the onset.",
     "Counts of flown flights, right % of the decided ones. A dash: not defined here.",
 )
+_BOUND_NOTE = ("bound: largest right % that any detector can have; fddbench bound says more.",)
 _ALARM_NOTE = ("Each flight once, however many scenarios share it, up to its first alarm.",)
 
 
@@ -98,12 +102,16 @@ def to_text(summary: pd.DataFrame, alarms: pd.DataFrame, *, wide: bool = False) 
     lines, of_alarms = summary.to_dict("records"), alarms.to_dict("records")
     # flights that were not flown are seen in every table
     lost = any(line["flown"] < line["flights"] for line in lines)
-    outcomes = [replace(column, leaves=1) if lost and column.head == "flown" else column for column in _OUTCOMES]
+    sooner = {"flown": 1} if lost else {}
+    limited = any(present(line.get("bound_percent")) and line["bound_percent"] < _ALL_PERCENT for line in lines)
+    sooner |= {"bound": 1} if limited else {}
+    outcomes = [replace(column, leaves=sooner.get(column.head, column.leaves)) for column in _OUTCOMES]
     columns, width = _fitting(outcomes, lines, wide=wide)
     alarm_columns, alarm_width = _fitting(_ALARMS, of_alarms, wide=wide)
     # the same short name in both tables
     names = shortened((str(line["detector"]) for line in lines), min(width, alarm_width))
-    parts = [*_scenarios(columns, lines, names, wide=wide), "", *_NOTE, ""]
+    shown = any(column.head == "bound" for column in columns)
+    parts = [*_scenarios(columns, lines, names, wide=wide), "", *_NOTE, *(_BOUND_NOTE if shown else ()), ""]
     parts += [*_false_alarms(alarm_columns, of_alarms, names), "", *_ALARM_NOTE]
     if not wide:
         parts.append("All columns: fddbench run --wide")

@@ -126,12 +126,13 @@ class DetectorFlight:
         return np.concatenate([score for score, _ in parts], axis=1), [text for _, texts in parts for text in texts]
 
     def tape(self) -> dict[str, Floats]:
-        """What was kept, (n_time, 1, n_cases) each; not-a-number from where the detector raised on."""
+        """What was kept, (n_time, n_rows, n_cases) each; not-a-number from where the detector raised on."""
         found, n_time = {}, int(self.constants.last.max()) + 1
         for full, rows in self.kept.items():
-            found[full] = np.full((n_time, 1, len(self.batch.cases)), np.nan)
+            n_rows = len(self.assembly.loop.bus.sites) if full.endswith(":declared") else 1
+            found[full] = np.full((n_time, n_rows, len(self.batch.cases)), np.nan)
             if rows:
-                found[full][: len(rows), 0] = rows
+                found[full][: len(rows)] = np.reshape(rows, (len(rows), n_rows, -1))
         return found
 
 

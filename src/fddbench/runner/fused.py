@@ -20,8 +20,9 @@ __all__ = ["Fused", "shown"]
 
 
 def shown(verdict: Verdict, number: Row) -> dict[str, Row]:
-    """All there is to record of a verdict: number of declared sites, alarm, residual, and what the detector shows."""
-    return {"n_declared": number, "alarm": verdict.alarm, "residual": verdict.residual, **verdict.signals}
+    """All there is to record of a verdict: which sites are declared and how many, alarm, residual, what the detector shows."""
+    own = {"n_declared": number, "declared": verdict.declared, "alarm": verdict.alarm, "residual": verdict.residual}
+    return own | dict(verdict.signals)
 
 
 @record

@@ -110,8 +110,8 @@ def _record(
     # a row of a signal, q_deg_s_2, is asked for by its number or with all the others, q_deg_s
     asked = {name for full in signals or () for name in (full, _NUMBER.sub("", full))}
     kept = [f"{source}:{name}" for name, source in sources.items() if signals is None or name in asked]
-    shown = {name: ("n_declared", "residual", *detector.recorded) for name, detector in assembly.detectors.items()}
-    kept += [f"{detector}:{name}" for detector, names in shown.items() for name in names]
+    shown = {name: ("n_declared", "alarm", "residual", *own.recorded) for name, own in assembly.detectors.items()}
+    kept += [f"{detector}:{name}" for detector, names in shown.items() for name in ("declared", *names)]
     found = flyer.fly(assembly.shortened(batch, float(last)), kept).recorded
     return Recording(
         scenario=planned.name,
@@ -125,6 +125,10 @@ def _record(
         ),
         detectors={
             name: {signal: found[f"{name}:{signal}"][:, 0] for signal in names} for name, names in shown.items()
+        },
+        declared={
+            name: {site: found[f"{name}:declared"][:, i] for i, site in enumerate(assembly.loop.bus.names)}
+            for name in shown
         },
     )
 

@@ -8,7 +8,7 @@ from fddbench.benchmarks.yaw_rate.plant import PLANT_NEEDS, YawRatePlant
 from fddbench.benchmarks.yaw_rate.sensors import PRESETS
 from fddbench.benchmarks.yaw_rate.unit_sites import plant_with_units
 from fddbench.benchmarks.yaw_rate.winds import WINDS
-from fddbench.interfaces import Choice, Loop, Options
+from fddbench.interfaces import Choice, Floats, IdealModel, Loop, Options
 from fddbench.kinds import Named
 from fddbench.voting.closest_two import ClosestTwo
 from fddbench.voting.median import Median
@@ -79,3 +79,10 @@ class YawRate:
     def loop(self, options: Options) -> Loop:
         """The loop that the chosen plant flies in, for these options."""
         return self.plant(options.chosen).loop(options)
+
+    def ideal(
+        self, chosen: Mapping[str, Any], parameters: Mapping[str, Floats], sample_s: float
+    ) -> Mapping[str, IdealModel] | str:
+        """What the ideal test knows of flights, as their plant says; see `fddbench.interfaces.Benchmark`."""
+        own = getattr(self.plant(chosen), "ideal", None)
+        return "this plant states no ideal model" if own is None else own(chosen, parameters, sample_s)

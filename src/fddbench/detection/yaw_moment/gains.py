@@ -1,10 +1,10 @@
-"""Numbers of the yaw-moment filter: how well its equation and the sensors are known."""
+"""Numbers of the yaw-moment filter, how well its equation and the sensors are known, and of the monitors that stand on it."""
 
 from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field
 
-__all__ = ["YawMomentGains"]
+__all__ = ["WatchGains", "YawMomentGains"]
 
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 NonNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
@@ -37,3 +37,26 @@ class YawMomentGains(BaseModel):
     acceleration_walk_deg_s2_sqrt_s: NonNegative
     share_prior_ratio: Three
     share_walk_ratio_sqrt_s: Three
+
+
+class WatchGains(BaseModel):
+    """What monitors of the innovations have in common.
+
+    Attributes
+    ----------
+    filter : YawMomentGains
+        What the filter believes.
+    differ_deg_s : float
+        Root mean square difference of two sensors that is none [deg/s].
+    mean_s : float
+        Time constant of mean squares [s].
+    confirm_s : float
+        How long a sensor must be suspected [s].
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    filter: YawMomentGains
+    differ_deg_s: Positive
+    mean_s: Positive
+    confirm_s: NonNegative

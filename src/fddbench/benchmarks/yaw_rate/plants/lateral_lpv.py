@@ -1,9 +1,11 @@
 """The published lateral model with heading and track beside it, its surfaces, parameters and manoeuvres."""
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
+from fddbench.benchmarks.yaw_rate.ideal import ideal_models
 from fddbench.benchmarks.yaw_rate.loop import LateralLoop
 from fddbench.benchmarks.yaw_rate.manoeuvres import DURATIONS_S, KNOTS, bank_commands
 from fddbench.benchmarks.yaw_rate.parameters import PARAMETERS, REFUSED
@@ -17,7 +19,7 @@ from fddbench.flight.actuators import Actuators
 from fddbench.flight.atmosphere import true_airspeed_m_s
 from fddbench.flight.envelope import infeasible_reasons
 from fddbench.flight.lateral_lpv import SCHEDULING, derivatives, lateral_lpv
-from fddbench.interfaces import Floats, Options, Parameter, Prepared, Site
+from fddbench.interfaces import Floats, IdealModel, Options, Parameter, Prepared, Site
 from fddbench.units import DEG_PER_RAD
 
 __all__ = ["LateralLpvPlant", "rudder_travel_deg"]
@@ -105,6 +107,13 @@ class LateralLpvPlant:
         """The loop it flies in."""
         chosen, plant = options.chosen, cls(options.sample_s, options.substeps)
         return LateralLoop(plant, plant.sites, chosen["voter"], chosen["sensors"], chosen["wind"], options)
+
+    @classmethod
+    def ideal(
+        cls, chosen: Mapping[str, Any], parameters: Mapping[str, Floats], sample_s: float
+    ) -> Mapping[str, IdealModel] | str:
+        """What the ideal test knows of flights, see `fddbench.benchmarks.yaw_rate.ideal`."""
+        return ideal_models(chosen, parameters, sample_s)
 
     def actuators(self) -> Actuators:
         """Actuators of the 13 surfaces."""

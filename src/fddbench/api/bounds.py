@@ -1,0 +1,87 @@
+"""The bound beside every score: how well the ideal test does, which knows the model, the fault and its time."""
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from fddbench.api.flights import campaign_of
+from fddbench.campaign.meaning import Campaign
+from fddbench.errors import FddbenchError, place_of, reason_of
+from fddbench.interfaces import IdealModel
+from fddbench.metrics.bound import P_FA, bound_line, bounds_table, detectability
+from fddbench.runner.signatures import MOST_FLIGHTS, Signature, signatures
+
+__all__ = ["bounds", "bounds_of"]
+
+_UNSTATED = "the benchmark states no ideal model"
+
+
+def bounds(source: Campaign | str | Path, *, p_fa: float = P_FA, flights: int = MOST_FLIGHTS) -> pd.DataFrame:
+    """Detectability and probability of detection of the ideal test, a line per faulty scenario and model.
+
+    Some flights of each scenario are flown without detectors for what their faults really add. Columns as in
+    ``fddbench.columns("bounds")``. Where no bound is stated `model` is null and `about` says why.
+
+    Parameters
+    ----------
+    source : Campaign, str or Path
+        A campaign, its file or name, or a folder of results.
+    p_fa : float
+        Probability of a false alarm of the one decision [-].
+    flights : int
+        Flights of a scenario, evenly spaced among all of them.
+
+    Raises
+    ------
+    FddbenchError
+        The benchmark fails, or a number above makes no sense.
+
+    Examples
+    --------
+    >>> table = bounds("yaw_rate_table8", flights=2)
+    >>> table[table["model"] == "walk 0.5"].iloc[1][["scenario", "d", "p_d"]].tolist()
+    ['oscill_b', 100.0, 1.0]
+    """
+    if flights < 1:
+        raise FddbenchError(f"need at least one flight, got {flights=}")
+    return bounds_of(campaign_of(source), p_fa=p_fa, flights=flights)
+
+
+def bounds_of(campaign: Campaign, *, p_fa: float = P_FA, flights: int = MOST_FLIGHTS) -> pd.DataFrame:
+    """`bounds` of a campaign."""
+    if not hasattr(campaign.bench, "ideal"):
+        names = [scenario.name for scenario in campaign.scenarios if scenario.faults]
+        return bounds_table([{"scenario": name, "about": _UNSTATED} for name in names])
+    return bounds_table([line for one in signatures(campaign, flights) for line in _lines(campaign, one, p_fa)])
+
+
+def _lines(campaign: Campaign, signature: Signature, p_fa: float) -> Iterator[dict[str, Any]]:
+    """Lines of a scenario, model by model."""
+    where = {"scenario": signature.scenario, "window_s": signature.window_s}
+    models = _models(campaign, signature)
+    if isinstance(models, str):
+        yield where | {"about": models}
+        return
+    for name, model in models.items():
+        blind = [site for site in signature.faults.added if site not in (*model.outputs, *model.states)]
+        if blind:
+            yield where | {"about": f"no model says where a fault of {', '.join(blind)} enters"}
+            return
+        yield where | {"model": name, "about": model.about} | bound_line(*detectability(model, signature.faults), p_fa)
+
+
+def _models(campaign: Campaign, signature: Signature) -> Mapping[str, IdealModel] | str:
+    """What the benchmark states for the flights of a signature."""
+    try:
+        with np.errstate(all="ignore"):
+            found: Mapping[str, IdealModel] | str = campaign.bench.ideal(  # type: ignore[attr-defined]
+                campaign.chosen, signature.batch.parameters, campaign.sample_s
+            )
+    except (Exception, SystemExit) as error:  # a benchmark may be somebody else's
+        raise FddbenchError(
+            f"benchmark {campaign.benchmark!r} cannot state its ideal model: {reason_of(error)}{place_of(error)}"
+        ) from error
+    return found

@@ -1,0 +1,62 @@
+"""Commands that look at single flights of a folder of results."""
+
+import argparse
+
+from fddbench.errors import FddbenchError
+
+__all__ = ["replay", "worst"]
+
+
+def replay(args: argparse.Namespace) -> int:
+    """Fly one flight again, bit for bit, and show what happened in it.
+
+    Prints onset and declarations; --plot draws the signals, what each detector shows, and both; --to writes all signals at
+    every sample, with their units in their names.
+    """
+    from fddbench.api.replaying import replay as fly
+    from fddbench.api.replaying import require_format, shown_in, write_table
+    from fddbench.reporting.flight_picture import declarations, require_picture, write_picture
+
+    if args.plot:
+        require_picture(args.plot)
+    if args.to:
+        require_format(args.to)
+    if "/" not in args.case:
+        raise FddbenchError(f"a flight is named as in the column case, jam_a/3/0/17, got {args.case!r}")
+    recording = fly(args.source, args.case, args.detector)
+    onset = "healthy" if recording.onset_s is None else f"onset {float(recording.onset_s[0]):g} s"
+    if args.plot:
+        write_picture(recording, args.plot, args.signal or shown_in(args.source))
+    if args.to:
+        write_table(recording, args.to)
+    print(f"flight {recording.cases[0]}: {onset}, {len(recording.time_s)} samples")
+    for detector, time_s, sites, alarm in declarations(recording):
+        print(f"  {time_s:9.2f} s  {detector} declares {sites or ('alarm' if alarm else 'nothing any more')}")
+    silent = set(recording.detectors) - {name for name, *_ in declarations(recording)}
+    if silent:
+        print(f"  {', '.join(name for name in recording.detectors if name in silent)}: nothing")
+    for path in filter(None, (args.plot, args.to)):
+        print(path)
+    return 0
+
+
+def worst(args: argparse.Namespace) -> int:
+    """List the flights to look at: in every scenario and for every detector those that went worst, with what went wrong.
+
+    First flights without a score, then healthy sites declared, missed and late faults, false alarms; then the slowest
+    detection and the largest healthy margin.
+    """
+    from fddbench.api.worst import worst as found
+
+    table = found(args.folder, args.detector, most=args.most)
+    if table.empty:
+        print("nothing to look at: no flight was flown")
+        return 0
+    widths = {
+        name: max(len(name), *(len(str(value)) for value in table[name])) for name in ("case", "detector", "what")
+    }
+    print("  ".join(name.ljust(width) for name, width in widths.items()))
+    for line in table.to_dict("records"):
+        print("  ".join(str(line[name]).ljust(width) for name, width in widths.items()).rstrip())
+    print(f"\nnext: fddbench replay {args.folder} {table['case'].iloc[0]} --plot flight.html")
+    return 0
