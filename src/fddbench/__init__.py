@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from fddbench.api.bounds import bounds
     from fddbench.api.campaigns import plan, read, run
+    from fddbench.api.curves import operating_curve
     from fddbench.api.designs import tune
     from fddbench.api.findings import finding
     from fddbench.api.flights import score, signals
@@ -27,6 +28,7 @@ __all__ = [
     "finding",
     "load",
     "load_events",
+    "operating_curve",
     "plan",
     "read",
     "report",
@@ -48,6 +50,7 @@ _ROOMS = {
     "finding": "findings",
     "report": "pages",
     "table_of": "replaying",
+    "operating_curve": "curves",
     "tune": "designs",
     "worst": "worst",
 }
