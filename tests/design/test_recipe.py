@@ -187,10 +187,11 @@ def test_keys_that_give_nothing_say_why(tmp_path, keys, kind, message):
     [
         ("fixed_poles", "needs fixed_poles: .a_1"),
         ("exact_inverse", "does not look at solver; it takes none of these keys"),
+        ("kalman", "does not look at solver; it takes weights"),
     ],
 )
 def test_methods_say_what_they_take(tmp_path, method, message):
-    keys = "  solver: SCS\n" if method == "exact_inverse" else ""
+    keys = "" if method == "fixed_poles" else "  solver: SCS\n"
     with pytest.raises(DesignError, match=message):
         cooked_with(tmp_path, keys, UNCERTAIN.replace("method: fixed_reference", f"method: {method}"))
 

@@ -224,3 +224,19 @@ def test_zero_delta_is_bit_identical(rho, deflection):
         for j in range(13):
             by_hand[row] += B[row, j, 0] * u[j, 0]
     assert f[:, 0].tolist() == by_hand
+
+
+def test_a_rotation_of_the_air_is_one_of_the_aircraft_the_other_way_without_kinematics():
+    """Aerodynamic parts alone; and the yawing moment of a gust may be larger than the model of its sideslip says."""
+    model = lateral_lpv()
+    A, B = model.matrices(model.rho(*(np.array([v]) for v in (200e3, 0.3, 20e3, 290.0))))
+    u0, w0, gust = np.array([199.07]), np.array([9.25]), np.array([2.0])
+    same = {"u0_m_s": u0, "w0_m_s": w0, "gust_m_s": gust, "delta": (np.array([0.1]),) * 3}
+    _, plain = derivatives(A, B, np.zeros((13, 1)), **same)
+    M, turned = derivatives(A, B, np.zeros((13, 1)), **same, rotation_rad_s=(np.array([0.01]), np.array([0.02])))
+    own = M[:, :, 0] @ [0.0, 0.0, -0.01, -0.02] - [-0.01 - 0.02 * A[0, 3, 0], -0.01 * 9.25 + 0.02 * 199.07, 0.0, 0.0]
+    np.testing.assert_allclose((turned - plain)[:, 0], own, rtol=1e-9, atol=1e-12)
+    M, stronger = derivatives(A, B, np.zeros((13, 1)), **same, gust_yaw=np.array([0.3]))
+    np.testing.assert_allclose((stronger - plain)[:, 0], [0.0, 0.0, 0.0, -0.3 * M[3, 1, 0] * 2.0], rtol=1e-12)
+    nothing = {"rotation_rad_s": (np.zeros(1), np.zeros(1)), "gust_yaw": np.zeros(1)}
+    assert np.array_equal(derivatives(A, B, np.zeros((13, 1)), **same, **nothing)[1], plain)

@@ -9,12 +9,12 @@ from fddbench.blocks.kernel import build
 from fddbench.blocks.layout import leaves
 from fddbench.flight.dryden import LONGITUDINAL_WINDS, SIX_COMPONENT_WINDS
 from fddbench.flight.one_minus_cosine import OneMinusCosine
-from fddbench.flight.turbulence import WINDS
+from fddbench.flight.rotating_gust import LATERAL_WINDS
 from fddbench.flight.wind import CalmAir, Encounter, still
 
 N = 7
 EVERY = {
-    "lateral": WINDS["severe"],
+    "lateral": LATERAL_WINDS["severe"],
     "six": SIX_COMPONENT_WINDS["moderate"],
     "longitudinal": LONGITUDINAL_WINDS["light"],
     "hump": OneMinusCosine("up", 0.3),
@@ -59,7 +59,12 @@ def test_machine_code_flies_as_numpy_does(name):
         assert found[0].recorded[one].tobytes() == found[1].recorded[one].tobytes()
     assert found[0].state.tobytes() == found[1].state.tobytes()
     moved = {one for one in moving if np.any(found[0].recorded[one])}
-    expected = {"lateral": "v_m_s", "six": " ".join(moving), "longitudinal": "u_m_s w_m_s q_rad_s", "hump": "w_m_s"}
+    expected = {
+        "lateral": "v_m_s p_rad_s r_rad_s",
+        "six": " ".join(moving),
+        "longitudinal": "u_m_s w_m_s q_rad_s",
+        "hump": "w_m_s",
+    }
     assert moved == set(expected.get(name, "").split())
 
 

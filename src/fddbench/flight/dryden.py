@@ -31,7 +31,7 @@ from fddbench.flight.wind import AirMotion, CalmAir, Encounter, Wind, still
 
 __all__ = [
     "INTENSITIES_M_S", "LONGITUDINAL_WINDS", "SCALE_LENGTH_M", "SIX_COMPONENT_WINDS", "Dryden", "Half", "HalfConstants",
-    "HalfDraws", "HalfState", "LateralDryden", "LongitudinalDryden", "Whole",
+    "HalfDraws", "HalfState", "LateralDryden", "LongitudinalDryden", "Whole", "roll_gust_per_m",
 ]  # fmt: skip
 
 SCALE_LENGTH_M = 1750.0 * 0.3048
@@ -137,6 +137,12 @@ class LongitudinalDryden(Half):
         return after, still(like, u_m_s=u_m_s, w_m_s=w_m_s, q_rad_s=-gradient_rad_s)
 
 
+def roll_gust_per_m(span_m: Row) -> Row:
+    """One sigma of p_g for a gust of 1 m/s [rad/s per m/s]."""
+    share = pow_(0.25 * np.pi * SCALE_LENGTH_M / span_m, 1.0 / 3.0) / (SCALE_LENGTH_M * span_m)
+    return np.sqrt(0.1 * np.pi * np.pi * share)
+
+
 class LateralDryden(Half):
     """v_g, p_g and r_g."""
 
@@ -147,8 +153,7 @@ class LateralDryden(Half):
         """Constants of flights, see `fddbench.flight.wind.Wind`."""
         meets = meets.spread()
         span_m = meets.span_m
-        share = pow_(0.25 * np.pi * SCALE_LENGTH_M / span_m, 1.0 / 3.0) / (SCALE_LENGTH_M * span_m)
-        size = self.sigma_m_s * meets.scale_ratio * np.sqrt(0.1 * np.pi * np.pi * share)
+        size = self.sigma_m_s * meets.scale_ratio * roll_gust_per_m(span_m)
         return self._prepared(
             normals, meets, sample_s, size=size, single_s=4.0 / np.pi * span_m / meets.v_tas_m_s, spans=3.0 / np.pi
         )

@@ -40,13 +40,24 @@ class LateralLpv(AffineLpv):
 
 
 def derivatives(
-    A: Rows, B: Rows, u: Rows, *, u0_m_s: Rows, w0_m_s: Rows, gust_m_s: Rows, delta: tuple[Rows, Rows, Rows]
+    A: Rows,
+    B: Rows,
+    u: Rows,
+    *,
+    u0_m_s: Rows,
+    w0_m_s: Rows,
+    gust_m_s: Rows,
+    delta: tuple[Rows, Rows, Rows],
+    rotation_rad_s: tuple[Rows, Rows] | None = None,
+    gust_yaw: Rows | None = None,
 ) -> tuple[Rows, Rows]:
     """Scaled matrix and the constant part of ``xdot`` while the surfaces and the gust stand still.
 
     The aerodynamic deltas ``delta = (dC_Y, dC_l, dC_n)`` [-] scale A(2,2), B(2,:) and the aerodynamic parts
     ``A(2,3) - V sin alpha0`` and ``A(2,4) + V cos alpha0``; A(3,2:4), B(3,:); A(4,2:4), B(4,:). Gravity and kinematics
-    are never scaled. V_y enters the aerodynamics relative to the air: ``V_y - gust``.
+    are never scaled. V_y enters the aerodynamics relative to the air: ``V_y - gust``; where the air rotates, so do
+    ``p - p_g`` and ``r - r_g`` of `rotation_rad_s`, in the aerodynamic parts. The yawing moment of the gust alone is ``1 +
+    gust_yaw`` times what A(4,2) says.
 
     Returns
     -------
@@ -60,7 +71,15 @@ def derivatives(
     M = A + np.stack([np.zeros_like(side), side, roll, yaw])
     control = product(B, u)
     scaled = np.stack([control[0], (1.0 + d_y) * control[1], (1.0 + d_l) * control[2], (1.0 + d_n) * control[3]])
-    return M, scaled - M[:, 1] * gust_m_s
+    f = scaled - M[:, 1] * gust_m_s
+    if rotation_rad_s is not None:
+        p_g, r_g = rotation_rad_s
+        of_p = np.stack([zero, M[1, 2] - w0_m_s, M[2, 2], M[3, 2]])
+        of_r = np.stack([zero, M[1, 3] + u0_m_s, M[2, 3], M[3, 3]])
+        f = f - of_p * p_g - of_r * r_g
+    if gust_yaw is not None:
+        f = f - np.stack([zero, zero, zero, gust_yaw * (M[3, 1] * gust_m_s)])
+    return M, f
 
 
 @cache

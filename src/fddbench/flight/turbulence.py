@@ -14,9 +14,9 @@ from fddbench.blocks import consumers
 from fddbench.blocks.drawn import Draw, Draws
 from fddbench.blocks.functions import exp
 from fddbench.blocks.layout import ROW, Layout, Row, Rows, record
-from fddbench.flight.wind import AirMotion, CalmAir, Encounter, Wind, still
+from fddbench.flight.wind import AirMotion, Encounter, still
 
-__all__ = ["SCALE_LENGTH_M", "WINDS", "GustConstants", "GustState", "LateralGust"]
+__all__ = ["SCALE_LENGTH_M", "GustConstants", "GustState", "LateralGust"]
 
 SCALE_LENGTH_M = 533.4
 _ROOT3 = float(np.sqrt(3.0))
@@ -115,12 +115,3 @@ def _stationary(normals: Rows) -> GustState:
     n21 = _P21 / n11
     second = n21 * normals[0] + float(np.sqrt(_P22 - n21 * n21)) * normals[1]
     return GustState(first=n11 * normals[0], second=second)
-
-
-WINDS: dict[str, Wind] = {
-    "none": CalmAir(),
-    "light": LateralGust(1.5),
-    "moderate": LateralGust(3.0),
-    "severe": LateralGust(6.0),
-}
-"""Winds by their names in campaigns, the default first; intensities [m/s] above 2000 ft by MIL-F-8785C."""

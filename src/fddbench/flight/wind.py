@@ -1,6 +1,6 @@
 """What a wind is: a block that says how the air moves at the aircraft, from what the aircraft is when it meets it."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any, Protocol
 
 import numpy as np
@@ -9,7 +9,7 @@ from fddbench.blocks.block import NO_DRAWS, NOTHING
 from fddbench.blocks.drawn import Draws
 from fddbench.blocks.layout import Layout, Nothing, Row, Rows, record
 
-__all__ = ["AirMotion", "CalmAir", "Encounter", "Wind", "still"]
+__all__ = ["AirMotion", "CalmAir", "Encounter", "Wind", "rotating", "still"]
 
 
 @record
@@ -36,6 +36,11 @@ def still(like: Row, **moving: Row) -> AirMotion:
     """
     zero = np.zeros_like(like)
     return AirMotion(**{**dict.fromkeys((field.name for field in fields(AirMotion)), zero), **moving})
+
+
+def rotating(air: AirMotion, share: Row) -> AirMotion:
+    """The same air with so much of its rotation."""
+    return replace(air, p_rad_s=share * air.p_rad_s, q_rad_s=share * air.q_rad_s, r_rad_s=share * air.r_rad_s)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

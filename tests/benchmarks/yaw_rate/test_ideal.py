@@ -8,7 +8,7 @@ import fddbench
 from fddbench.benchmarks.yaw_rate.ideal import ideal_models
 from fddbench.benchmarks.yaw_rate.sensors import PRESETS
 from fddbench.flight.lateral_lpv import lateral_lpv
-from fddbench.flight.turbulence import WINDS, LateralGust
+from fddbench.flight.rotating_gust import LATERAL_WINDS, LateralGust
 from fddbench.interfaces.benchmark import default_choices
 from fddbench.kinds import load
 from fddbench.metrics.bound import Faults, detectability, power
@@ -113,7 +113,7 @@ def test_a_unit_that_is_lost_whole_is_seen_in_all_three_signals():
 
 
 def test_what_has_no_bound_says_why():
-    chosen = {"sensors": PRESETS["ideal"], "wind": WINDS["none"]}
+    chosen = {"sensors": PRESETS["ideal"], "wind": LATERAL_WINDS["none"]}
     assert "at once" in ideal_models(chosen, {}, SAMPLE_S)
     bench = load("benchmark", "yaw_rate")()
     other = default_choices(bench) | {"plant": bench.choices["plant"].options["transport_6dof"]}

@@ -146,7 +146,7 @@ FLIGHT, SCENARIO = "flight", "scenario"
 
 
 def test_every_random_number_has_one_reader_and_its_frozen_address(bench):
-    """Rows 0-5 are sensor noise, 8-9 the gust, 12-15 the fault slot; no row moves what another one feeds."""
+    """Rows 0-5 are sensor noise, 8-10 the gust, 12-15 the fault slot; no row moves what another one feeds."""
     nrz = [Nrz(kind="nrz", sites=("r1",), onset_s=0.0, amplitude_deg_s=2.0)]
     loop = bench.loop(sensors="white", wind="light", faults=[nrz])
     assert loop.draws.streams == ((0, FLIGHT), (1, FLIGHT), (2, FLIGHT), (64, SCENARIO))
@@ -163,10 +163,20 @@ def test_every_random_number_has_one_reader_and_its_frozen_address(bench):
         "beta": measured.beta_deg,
         "p": measured.p_deg_s,
         "phi": measured.phi_deg,
-        "gust": after.gust.first + after.gust.second,
+        "gust": after.gust.gust.first + after.gust.gust.second,
+        "roll": after.gust.roll,
     }
     readers = {name: np.flatnonzero(value != value[16]).tolist() for name, value in seen.items()}
-    assert readers == {"r1": [0, 12], "r2": [1], "r3": [2], "beta": [3], "p": [4], "phi": [5], "gust": [8, 9]}
+    assert readers == {
+        "r1": [0, 12],
+        "r2": [1],
+        "r3": [2],
+        "beta": [3],
+        "p": [4],
+        "phi": [5],
+        "gust": [8, 9],
+        "roll": [10],
+    }
 
 
 def test_each_site_of_an_independent_fault_has_the_number_of_its_position(bench):
@@ -233,8 +243,8 @@ def test_bus_names_what_a_step_measures(bench):
 def test_calm_air_and_no_faults_leave_no_row_behind(bench):
     loop, windy = bench.loop(), bench.loop(wind="light")
     assert loop.states.size == 6 + 13 + 1
-    assert windy.states.size == loop.states.size + 2
-    assert not any("gust" in name or "faults" in name for name in (*loop.states.names, *loop.constants.names))
+    assert windy.states.size == loop.states.size + 4
+    assert not any("gust." in name or "faults" in name for name in (*loop.states.names, *loop.constants.names))
     assert (loop.draws.size, windy.draws.size, loop.before.size) == (8, 12, 0)
 
 

@@ -11,6 +11,7 @@ from fddbench.benchmarks.yaw_rate.plants.lateral_lpv import LateralLpvPlant, Lat
 from fddbench.blocks.layout import Nothing, leaves
 from fddbench.flight.atmosphere import true_airspeed_m_s
 from fddbench.flight.lateral_lpv import SCHEDULING, derivatives, lateral_lpv
+from fddbench.flight.wind import still
 
 RANDOM = np.random.default_rng(0)
 PLANT = LateralLpvPlant(0.01, 1)
@@ -31,7 +32,7 @@ def state(*values):
 
 def flown(x, c, *, u, gust, substeps=1):
     """State at the next sample of 10 ms."""
-    after, _ = LateralLpvPlant(0.01, substeps).step(x, c, Nothing(), u, gust, 0.0)
+    after, _ = LateralLpvPlant(0.01, substeps).step(x, c, Nothing(), u, still(gust, v_m_s=gust), 0.0)
     return after
 
 
@@ -131,7 +132,7 @@ def test_has_what_a_plant_needs():
 def test_motion_is_the_state_in_degrees_beside_what_is_measured():
     c, _ = constants(1, mass_error_percent=10.0)
     x = state(0.1, 3.0, 0.05, -0.03, 0.3, 5.0)
-    _, motion = PLANT.step(x, c, Nothing(), np.zeros((13, 1)), np.array([1.0]), 0.0)
+    _, motion = PLANT.step(x, c, Nothing(), np.zeros((13, 1)), still(x.r_rad_s, v_m_s=np.array([1.0])), 0.0)
     angles = (motion.phi_deg[0], motion.p_deg_s[0], motion.r_deg_s[0], motion.psi_deg[0])
     assert angles == pytest.approx(np.rad2deg([0.1, 0.05, -0.03, 0.3]), rel=1e-14)
     assert motion.beta_deg[0] == pytest.approx(np.rad2deg(np.arcsin((3.0 - 1.0) / c.v_tas_m_s[0])), rel=1e-12)

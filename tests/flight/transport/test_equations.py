@@ -174,3 +174,19 @@ def test_attitude_and_angles_are_inverse(phi, theta, psi):
     np.testing.assert_allclose([each[0] for each in euler_rad(x)], [phi, theta, psi], atol=1e-9)
     down = to_earth(x, [each[0] for each in gravity(x)])
     np.testing.assert_allclose(down, [0.0, 0.0, GRAVITY_M_S2], atol=1e-12)
+
+
+def test_the_yawing_moment_of_a_gust_alone_may_be_off_the_model():
+    """30 % more of it with a gust; nothing without; and zero percent keeps every bit."""
+    rows, around = rows_of(), air_around(rows_of()[12])
+
+    def yaw(gust_m_s, off):
+        body = body_of(JET, 185e3 * ONE, 0.27 * ONE, gust_yaw=None if off is None else off * ONE)
+        wind = still(ONE, v_m_s=gust_m_s * ONE)
+        return forces(JET, body, around, State(*rows), neutral(-0.04 * ONE), wind, 0.5 * ONE).yaw[0]
+
+    more = yaw(2.0, 0.3) - yaw(2.0, 0.0)
+    assert yaw(2.0, 0.0) == yaw(2.0, None)
+    assert yaw(0.0, 0.3) == yaw(0.0, 0.0)
+    # what the same gust changes by its sideslip is the same share of it; the side force at its arm is not, nor is the speed
+    assert more == pytest.approx(0.3 * (yaw(2.0, 0.0) - yaw(0.0, 0.0)), rel=0.1)

@@ -9,6 +9,7 @@ from scipy.linalg import expm
 from fddbench.benchmarks.yaw_rate.sensors import Noise
 from fddbench.flight.atmosphere import true_airspeed_m_s
 from fddbench.flight.lateral_lpv import SCHEDULING, derivatives, lateral_lpv
+from fddbench.flight.rotating_gust import RotatingGust
 from fddbench.flight.turbulence import SCALE_LENGTH_M, LateralGust
 from fddbench.interfaces import Floats, IdealModel
 from fddbench.units import DEG_PER_RAD
@@ -33,12 +34,16 @@ def ideal_models(
 
     States: bank angle, side velocity, roll and yaw rate, unknown yaw acceleration, two of the gust; outputs: what the sensors
     read [deg, deg/s], each unit by itself. The aircraft is known as it is, deltas of its coefficients included, surfaces are
-    known, and so is what a flight draws once of sensor errors. A wind that is no Dryden gust is taken as known too.
+    known, and so is what a flight draws once of sensor errors. A wind that is no Dryden gust is taken as known
+    too, and so are the rotations of a gust and what of its yawing moment is off the model.
     """
     noise, wind = chosen["sensors"], chosen["wind"]
     if min(noise.r_deg_s, noise.beta_deg, noise.p_deg_s, noise.phi_deg) <= 0.0:
         return "sensors without noise find any fault at once"
-    sigma = np.asarray(wind.sigma_m_s if isinstance(wind, LateralGust) else 0.0) * parameters["gust_scale_ratio"]
+    sigma = (
+        np.asarray(wind.sigma_m_s if isinstance(wind, LateralGust | RotatingGust) else 0.0)
+        * parameters["gust_scale_ratio"]
+    )
     v_tas_m_s = true_airspeed_m_s(parameters["v_cas_kt"], parameters["altitude_ft"])
     A, gust_noise = _sampled(_matrix(parameters, v_tas_m_s), sigma, v_tas_m_s, sample_s)
     C, sigmas = _sensors(noise, sigma, v_tas_m_s)

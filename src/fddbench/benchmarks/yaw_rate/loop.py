@@ -178,10 +178,9 @@ class LateralLoop:
     def step(self, x: LoopState, c: LoopConstants, n: LoopDraws, sample: Row) -> tuple[LoopState, Sample]:
         """One sample, see `fddbench.interfaces.Loop.step`."""
         gust, air = self.gust.step(x.gust, c.gust, n.gust, sample, like=x.actuators.position_deg[0])
-        gust_m_s = air.v_m_s
         breaking = self.breaking.begin(x.faults, c.faults, n.faults, sample)
         surface_deg = breaking.broken("surface_deg", x.actuators.position_deg)
-        plant, motion = self.plant.step(x.plant, c.plant, n.plant, surface_deg, gust_m_s, sample)
+        plant, motion = self.plant.step(x.plant, c.plant, n.plant, surface_deg, air, sample)
         sensors, readings = self.sensors.step(
             x.sensors, c.sensors, n.sensors, sample,
             r_deg_s=motion.r_deg_s, beta_deg=motion.beta_deg, p_deg_s=motion.p_deg_s, phi_deg=motion.phi_deg,
@@ -203,7 +202,7 @@ class LateralLoop:
         )
         seen = Sample(
             measured=measured,
-            truth=self._truth(motion, gust_m_s),
+            truth=self._truth(motion, air.v_m_s),
             departed=motion.departed,
             added=breaking.added(),
             voted={"r_voted_deg_s": voted["r_deg_s"] - motion.r_deg_s},

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from fddbench.interfaces import Parameter
 
-__all__ = ["PARAMETERS", "REFUSED"]
+__all__ = ["PARAMETERS", "REFUSED", "gust_rotation"]
 
 
 def _error(name: str, of: str) -> Parameter:
@@ -16,6 +16,17 @@ def _error(name: str, of: str) -> Parameter:
 def _delta(name: str, of: str) -> Parameter:
     return Parameter(
         name=name, about=f"change of the aerodynamic {of}; detectors and law keep 0", default=0.0, low=-50.0, high=50.0
+    )
+
+
+def gust_rotation(default: float) -> Parameter:
+    """How much of the rotation of the gust an aircraft feels; a lateral model felt none of it at first."""
+    return Parameter(
+        name="gust_rotation_ratio",
+        about="share of the rotations of the gust (gradients over span and length, p_g and r_g) that the aircraft feels",
+        default=default,
+        low=0.0,
+        high=10.0,
     )
 
 
@@ -32,6 +43,14 @@ PARAMETERS: tuple[Parameter, ...] = (
     _error("altitude_error_percent", "altitude"),
     _error("v_cas_error_percent", "calibrated airspeed"),
     Parameter(name="gust_scale_ratio", about="share of the gust of the chosen wind", default=1.0, low=0.0, high=10.0),
+    gust_rotation(0.0),
+    Parameter(
+        name="gust_yaw_moment_percent",
+        about="by how much the yawing moment of the gust is larger than the model of its sideslip says",
+        default=0.0,
+        low=-100.0,
+        high=100.0,
+    ),
 )
 
 REFUSED: Mapping[str, str] = {

@@ -6,6 +6,7 @@ from typing import Any, Protocol
 from fddbench.blocks.drawn import Draws
 from fddbench.blocks.layout import Layout, Row, Rows, record
 from fddbench.flight.actuators import Actuators
+from fddbench.flight.wind import AirMotion
 from fddbench.interfaces import Floats, Loop, Options, Parameter, Prepared, Site
 
 __all__ = ["PLANT_NEEDS", "SITES", "LateralPlant", "Motion", "YawRatePlant"]
@@ -71,7 +72,7 @@ class LateralPlant(Protocol):
     """An aircraft that `fddbench.benchmarks.yaw_rate.loop.LateralLoop` can fly; made from ``(sample_s, substeps)``.
 
     It is a block whose step is fed with the positions of the 13 surfaces [deg] (rudder, four ailerons, eight spoilers), the
-    lateral gust [m/s] and the number of the sample, and gives its `Motion`.
+    motion of the air and the number of the sample, and gives its `Motion`.
     """
 
     sites: tuple[Site, ...]
@@ -95,6 +96,6 @@ class LateralPlant(Protocol):
         """State before sample 0."""
         ...
 
-    def step(self, x: Any, c: Any, n: Any, surface_deg: Rows, gust_m_s: Row, sample: Row) -> tuple[Any, Motion]:
+    def step(self, x: Any, c: Any, n: Any, surface_deg: Rows, air: AirMotion, sample: Row) -> tuple[Any, Motion]:
         """State at the next sample, and the motion at this one."""
         ...

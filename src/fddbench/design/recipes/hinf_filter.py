@@ -25,6 +25,7 @@ _TAKES = {
     "free_reference": {"reference", "uncertainty", "weights", "solver", "relax"},
     "fixed_poles": {"fixed_poles", "uncertainty", "weights", "solver", "relax"},
     "exact_inverse": set(),
+    "kalman": {"weights"},
 }
 """Keys that mean something to a method; others are refused with it."""
 
@@ -36,9 +37,9 @@ class HinfRecipe(Recipe):
     ----------
     plant : str, or mapping of str to matrix
         A benchmark with `matrices`, or the fields of `fddbench.systems.UncertainPlant` themselves.
-    method : {"fixed_reference", "free_reference", "fixed_poles", "exact_inverse"}
-        `synthesize`, `optimize_reference` (Algorithm 1 from this reference), `optimize_fixed_poles`, or
-        ``r = Df⁻¹ (y - C x̂ - D u)``.
+    method : {"fixed_reference", "free_reference", "fixed_poles", "exact_inverse", "kalman"}
+        `synthesize`, `optimize_reference` (Algorithm 1 from this reference), `optimize_fixed_poles`,
+        ``r = Df⁻¹ (y - C x̂ - D u)``, or `bias_filter`.
     reference : ReferenceEntry
         The identity when left out. What is free in Algorithm 1 is its diagonal, or its triangle if it has one.
     fixed_poles : numbers, one per fault
@@ -58,7 +59,7 @@ class HinfRecipe(Recipe):
     """
 
     plant: str | dict[str, Matrix]
-    method: Literal["fixed_reference", "free_reference", "fixed_poles", "exact_inverse"]
+    method: Literal["fixed_reference", "free_reference", "fixed_poles", "exact_inverse", "kalman"]
     reference: ReferenceEntry | None = None
     fixed_poles: Row | None = None
     uncertainty: UncertaintyEntry | None = None

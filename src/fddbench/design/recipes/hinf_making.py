@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fddbench import kinds
+from fddbench.design.bias_filter import bias_filter
 from fddbench.design.linearised import Freedom
 from fddbench.design.problem import Filter, augment, close
 from fddbench.design.proof import Proven
@@ -34,6 +35,9 @@ def made(recipe: "HinfRecipe") -> tuple[Filter, dict[str, Any]]:
         identity = StateSpace.gain(np.eye(plant.inputs[0]))
         worst = worst_delta(close(augment(plant, identity), identity, filter_), blocks_of(NormBounded(), plant))
         return filter_, {"worst_norm_sampled": short(worst.norm)}
+    if recipe.method == "kalman":
+        filter_ = bias_filter(plant, recipe.weights.weights(plant) if recipe.weights else Weights())
+        return filter_, {"slowest_pole_1_s": short(float(np.linalg.eigvals(filter_.Ak).real.max()))}
     task = _Task(
         uncertainty=recipe.uncertainty.uncertainty(plant) if recipe.uncertainty else NormBounded(),
         weights=recipe.weights.weights(plant) if recipe.weights else Weights(),
@@ -127,8 +131,8 @@ def _with_a_state(filter_: Filter) -> Filter:
 
 
 def _speaks_plainly(recipe: "HinfRecipe") -> bool:
-    """Whether residual i is made to be fault i itself: an inverse, or a reference that is the identity."""
-    if recipe.method == "exact_inverse":
+    """Whether residual i is made to be fault i itself: an inverse, a filter of biases, or T_ref = I."""
+    if recipe.method in ("exact_inverse", "kalman"):
         return True
     reference = recipe.reference.system() if recipe.reference else None
     identity = reference is None or (

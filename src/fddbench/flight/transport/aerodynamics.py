@@ -30,13 +30,15 @@ class Flow:
     """How the air meets the aircraft, (n_cases,) each.
 
     Cosine and sine of the incidence and its angle [rad], sine of the sideslip (what derivatives per rad of sideslip are
-    multiplied with), Mach number and its square, dynamic pressure [Pa], rates ``p b/2V``, ``q c/2V``, ``r b/2V`` [-].
+    multiplied with) and what the gust alone makes of it, Mach number and its square, dynamic pressure [Pa], rates ``p b/2V``,
+    ``q c/2V``, ``r b/2V`` [-].
     """
 
     cos_alpha: Row
     sin_alpha: Row
     alpha_rad: Row
     sin_beta: Row
+    gust_sin_beta: Row
     mach: Row
     mach_squared: Row
     pressure_pa: Row
@@ -98,8 +100,13 @@ def longitudinal(aircraft: Aircraft, flow: Flow, controls: Controls, x_cg_ratio:
     return Longitudinal(c_x=c_x, c_z=c_z, c_m=c_m, c_l_wing=wing)
 
 
-def lateral(aircraft: Aircraft, flow: Flow, controls: Controls, c_l_wing: Row, x_cg_ratio: Row) -> Coefficients:
-    """Lateral coefficients; the whole side force acts at the reference point."""
+def lateral(
+    aircraft: Aircraft, flow: Flow, controls: Controls, c_l_wing: Row, x_cg_ratio: Row, gust_yaw: Row
+) -> Coefficients:
+    """Lateral coefficients; the whole side force acts at the reference point.
+
+    `gust_yaw` [-] is by how much the yawing moment of the sideslip that a gust makes is larger than C_n_beta says.
+    """
     reference, d, s = aircraft.reference, aircraft.lateral, aircraft.surfaces
     more_lift = c_l_wing * (1.0 / reference.c_l) - 1.0
     more_mach = flow.mach - reference.mach
@@ -140,8 +147,9 @@ def lateral(aircraft: Aircraft, flow: Flow, controls: Controls, c_l_wing: Row, x
         + control(s.rudder.c_l, s.aileron_1.c_l, s.aileron_3.c_l, s.spoiler.c_l)
         + tail * controls.elevator_difference
     )
+    off_model = gust_yaw * (sloped(d.c_n_beta.value, d.c_n_beta) * flow.gust_sin_beta)
     at_reference = motion(*(sloped(each.value, each) for each in (d.c_n_beta, d.c_n_p, d.c_n_r))) + control(
         s.rudder.c_n, s.aileron_1.c_n, s.aileron_3.c_n, s.spoiler.c_n
     )
     arm = (geometry.chord_m / geometry.span_m) * (x_cg_ratio - geometry.x_cg_reference_ratio)
-    return Coefficients(c_y=c_y, c_l=c_l, c_n=at_reference + c_y * arm)
+    return Coefficients(c_y=c_y, c_l=c_l, c_n=at_reference + c_y * arm + off_model)

@@ -14,7 +14,14 @@ __all__ = ["AXES", "body_of"]
 AXES = ("x", "y", "z", "l", "m", "n")
 
 
-def body_of(aircraft: Aircraft, mass_kg: Row, x_cg_ratio: Row, deltas: Mapping[str, Row] | None = None) -> Body:
+def body_of(
+    aircraft: Aircraft,
+    mass_kg: Row,
+    x_cg_ratio: Row,
+    deltas: Mapping[str, Row] | None = None,
+    *,
+    gust_yaw: Row | None = None,
+) -> Body:
     """Flights of these masses [kg] and centres of gravity [-], (n_cases,).
 
     Inertia grows with a power of the mass.
@@ -23,6 +30,8 @@ def body_of(aircraft: Aircraft, mass_kg: Row, x_cg_ratio: Row, deltas: Mapping[s
     ----------
     deltas : mapping of str to rows, optional
         Changes [-] of the total coefficients in body axes by the last letter of their names: x, y, z, l, m, n.
+    gust_yaw : row, optional
+        By how much the yawing moment of a gust is larger than its sideslip says [-].
     """
     inertia, deltas = aircraft.inertia, deltas or {}
     share = mass_kg / inertia.mass_kg
@@ -35,4 +44,5 @@ def body_of(aircraft: Aircraft, mass_kg: Row, x_cg_ratio: Row, deltas: Mapping[s
     return Body(
         mass_kg=mass_kg, x_cg_ratio=x_cg_ratio, i_xx=i_xx, i_yy=i_yy, i_zz=i_zz, i_xz=i_xz,
         roll_of_roll=i_zz / whole, roll_of_yaw=i_xz / whole, yaw_of_yaw=i_xx / whole, **ones,
+        gust_yaw=np.zeros_like(mass_kg) if gust_yaw is None else gust_yaw,
     )  # fmt: skip

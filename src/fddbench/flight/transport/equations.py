@@ -53,7 +53,7 @@ class Body:
     """What of an aircraft differs from flight to flight, (n_cases,) each.
 
     Mass [kg], centre of gravity [-], moments of inertia and the three terms of their inverse in roll and yaw; ``1 + delta`` of
-    the total coefficients [-].
+    the total coefficients [-]; by how much the yawing moment of a gust is larger than its sideslip says [-].
     """
 
     mass_kg: Row
@@ -71,6 +71,7 @@ class Body:
     one_c_l: Row
     one_c_m: Row
     one_c_n: Row
+    gust_yaw: Row
 
 
 class Forces(NamedTuple):
@@ -116,6 +117,7 @@ def flow_of(
         sin_alpha=w / in_plane,
         alpha_rad=atan2(w, u),
         sin_beta=v / speed,
+        gust_sin_beta=-(2.0 * half) * wind.v_m_s,
         mach=np.sqrt(mach_squared),
         mach_squared=mach_squared,
         pressure_pa=(0.5 * density_kg_m3) * squared,
@@ -133,7 +135,7 @@ def forces(
     density, temperature = air.at(x.altitude)
     flow, plane, chord = flow_of(aircraft, x, wind, density, temperature)
     along = longitudinal(aircraft, flow, controls, body.x_cg_ratio)
-    across = lateral(aircraft, flow, controls, along.c_l_wing, body.x_cg_ratio)
+    across = lateral(aircraft, flow, controls, along.c_l_wing, body.x_cg_ratio, body.gust_yaw)
     area = flow.pressure_pa * aircraft.geometry.wing_area_m2
     per_mass = area / body.mass_kg
     thrust = thrust_ratio * thrust_n(aircraft, density, flow.mach)

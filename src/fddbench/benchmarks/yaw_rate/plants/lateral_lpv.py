@@ -19,6 +19,7 @@ from fddbench.flight.actuators import Actuators
 from fddbench.flight.atmosphere import true_airspeed_m_s
 from fddbench.flight.envelope import infeasible_reasons
 from fddbench.flight.lateral_lpv import SCHEDULING, derivatives, lateral_lpv
+from fddbench.flight.wind import AirMotion, rotating
 from fddbench.interfaces import Floats, IdealModel, Options, Parameter, Prepared, Site
 from fddbench.units import DEG_PER_RAD
 
@@ -46,7 +47,7 @@ class LateralState:
 
 @record
 class LateralConstants:
-    """The flight condition, its trim, what is measured of it, deltas of the coefficients, travel, and the bank command."""
+    """The flight condition, its trim, what is measured of it, deltas of the coefficients, the gust, travel, bank command."""
 
     mass_kg: Row
     x_cg_ratio: Row
@@ -58,6 +59,8 @@ class LateralConstants:
     delta_c_y: Row
     delta_c_l: Row
     delta_c_n: Row
+    gust_rotation_ratio: Row
+    gust_yaw: Row
     rudder_travel_deg: Row
     mass_measured_kg: Row
     x_cg_measured_ratio: Row
@@ -92,7 +95,8 @@ class LateralLpvPlant:
     constants = Layout(
         LateralConstants(
             mass_kg=ROW, x_cg_ratio=ROW, altitude_ft=ROW, v_cas_kt=ROW, v_tas_m_s=ROW, u0_m_s=ROW, w0_m_s=ROW,
-            delta_c_y=ROW, delta_c_l=ROW, delta_c_n=ROW, rudder_travel_deg=ROW, mass_measured_kg=ROW,
+            delta_c_y=ROW, delta_c_l=ROW, delta_c_n=ROW, gust_rotation_ratio=ROW, gust_yaw=ROW,
+            rudder_travel_deg=ROW, mass_measured_kg=ROW,
             x_cg_measured_ratio=ROW, altitude_measured_ft=ROW, v_cas_measured_kt=ROW, v_tas_measured_m_s=ROW,
             knots_s=KNOTS, bank_deg=KNOTS,
         )
@@ -144,6 +148,8 @@ class LateralLpvPlant:
             delta_c_y=parameters["delta_c_y_percent"] / 100.0,
             delta_c_l=parameters["delta_c_l_percent"] / 100.0,
             delta_c_n=parameters["delta_c_n_percent"] / 100.0,
+            gust_rotation_ratio=parameters["gust_rotation_ratio"],
+            gust_yaw=parameters["gust_yaw_moment_percent"] / 100.0,
             rudder_travel_deg=rudder_travel_deg(values["v_cas_kt"]),
             v_tas_measured_m_s=true_airspeed_m_s(measured["v_cas_measured_kt"], measured["altitude_measured_ft"]),
             knots_s=knots_s,
@@ -158,14 +164,18 @@ class LateralLpvPlant:
         return LateralState(phi_rad=0.0, v_y_m_s=0.0, p_rad_s=0.0, r_rad_s=0.0, psi_rad=0.0, y_m=0.0)
 
     def step(
-        self, x: LateralState, c: LateralConstants, n: Nothing, surface_deg: Rows, gust_m_s: Row, sample: Row
+        self, x: LateralState, c: LateralConstants, n: Nothing, surface_deg: Rows, air: AirMotion, sample: Row
     ) -> tuple[LateralState, Motion]:
-        """State at the next sample, surfaces and gust held, and the motion at this one."""
+        """State at the next sample, surfaces and air held, and the motion at this one."""
         del n
         model = lateral_lpv()
         A, B = model.matrices(model.rho(c.mass_kg, c.x_cg_ratio, c.altitude_ft, c.v_cas_kt))
         delta = (c.delta_c_y, c.delta_c_l, c.delta_c_n)
-        M, f = derivatives(A, B, surface_deg, u0_m_s=c.u0_m_s, w0_m_s=c.w0_m_s, gust_m_s=gust_m_s, delta=delta)
+        air = rotating(air, c.gust_rotation_ratio)
+        M, f = derivatives(
+            A, B, surface_deg, u0_m_s=c.u0_m_s, w0_m_s=c.w0_m_s, gust_m_s=air.v_m_s, delta=delta, gust_yaw=c.gust_yaw,
+            rotation_rad_s=(air.p_rad_s, air.r_rad_s),
+        )  # fmt: skip
         begun = np.stack([x.phi_rad, x.v_y_m_s, x.p_rad_s, x.r_rad_s])
         flown = rk4(_derivative, begun, M, f, step_s=self.sample_s, substeps=self.substeps)
         drift = c.v_tas_m_s * sin(x.psi_rad) + x.v_y_m_s * cos(x.psi_rad)
@@ -177,7 +187,7 @@ class LateralLpvPlant:
             psi_rad=x.psi_rad + (0.5 * self.sample_s) * (x.r_rad_s + flown[3]),
             y_m=x.y_m + self.sample_s * drift,
         )
-        return after, self._motion(x, c, gust_m_s, sample)
+        return after, self._motion(x, c, air.v_m_s, sample)
 
     def _motion(self, x: LateralState, c: LateralConstants, gust_m_s: Row, sample: Row) -> Motion:
         """What there is to measure and to show of this sample."""

@@ -87,7 +87,8 @@ class Transport6Dof:
         aircraft = self.aircraft
         mass, x_cg = parameters["mass_kg"], parameters["x_cg_ratio"]
         altitude, v_cas = parameters["altitude_ft"], parameters["v_cas_kt"]
-        body = body_of(aircraft, mass, x_cg, {axis: parameters[f"delta_c_{axis}_percent"] / 100.0 for axis in AXES})
+        deltas = {axis: parameters[f"delta_c_{axis}_percent"] / 100.0 for axis in AXES}
+        body = body_of(aircraft, mass, x_cg, deltas, gust_yaw=parameters["gust_yaw_moment_percent"] / 100.0)
         v_tas = true_airspeed_m_s(v_cas, altitude)
         at = trim(aircraft, body, v_tas, altitude * FT_M)
         one = {

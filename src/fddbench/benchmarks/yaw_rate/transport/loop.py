@@ -21,7 +21,7 @@ from fddbench.flight.actuators import Actuators, ActuatorState
 from fddbench.flight.atmosphere import FT_M
 from fddbench.flight.transport.engines import spooled
 from fddbench.flight.transport.travel import rates_deg_s, travel_deg
-from fddbench.flight.wind import Encounter
+from fddbench.flight.wind import Encounter, rotating
 from fddbench.interfaces import Bus, Flights, Options, Prepared, Sample
 from fddbench.units import DEG_PER_RAD
 
@@ -46,12 +46,13 @@ class LoopState:
 
 @record
 class LoopConstants:
-    """Constants of the parts that have any."""
+    """Constants of the parts that have any, and the share of the rotations of the air that the aircraft feels."""
 
     plant: PlantConstants
     wind: Part
     sensors: Part
     faults: Broken
+    gust_rotation_ratio: Row
 
 
 @record
@@ -107,6 +108,7 @@ class TransportLoop:
             LoopConstants(
                 plant=plant.constants.shape, wind=self.wind.constants.shape, sensors=self.sensors.constants.shape,
                 faults=self.breaking.constants.shape,
+                gust_rotation_ratio=ROW,
             )
         )  # fmt: skip
         self.draws: Draws[LoopDraws] = Draws(
@@ -133,6 +135,7 @@ class TransportLoop:
             wind=self.wind.prepare(flights.normals.wind, meets, self.sample_s),
             sensors=self.sensors.prepare(flights.normals.sensors),
             faults=self.breaking.prepare(flights.faults),
+            gust_rotation_ratio=flights.parameters["gust_rotation_ratio"],
         )
         return Prepared(constants=constants, infeasible_reason=plant.infeasible_reason)
 
@@ -155,6 +158,7 @@ class TransportLoop:
         """One sample, see `fddbench.interfaces.Loop.step`."""
         positions = x.actuators.position_deg
         wind, air = self.wind.step(x.wind, c.wind, n.wind, sample, like=x.thrust_ratio)
+        air = rotating(air, c.gust_rotation_ratio)
         surfaces = {"surface_deg": positions[:13], "elevator_deg": positions[13:15], "stabiliser_deg": positions[15:]}
         breaking = self.breaking.begin(x.faults, c.faults, n.faults, sample)
         s = {name: breaking.broken(name, rows) for name, rows in surfaces.items()}

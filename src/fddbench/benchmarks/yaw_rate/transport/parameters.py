@@ -1,12 +1,13 @@
 """What differs from flight to flight with six degrees of freedom: deltas in all axes."""
 
 from fddbench.benchmarks.yaw_rate.parameters import PARAMETERS as LATERAL
+from fddbench.benchmarks.yaw_rate.parameters import gust_rotation
 from fddbench.interfaces import Parameter
 
 __all__ = ["PARAMETERS"]
 
 PARAMETERS: tuple[Parameter, ...] = (
-    *LATERAL,
+    *(gust_rotation(1.0) if parameter.name == "gust_rotation_ratio" else parameter for parameter in LATERAL),
     *(
         Parameter(name=name, about=f"steady wind {where} of the trimmed flight", default=0.0, low=-150.0, high=150.0)
         for name, where in (("tail_wind_kt", "from behind"), ("cross_wind_kt", "from the left"))
