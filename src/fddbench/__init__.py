@@ -10,13 +10,17 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from fddbench.api.bounds import bounds
     from fddbench.api.campaigns import plan, read, run
+    from fddbench.api.comparing import compare
     from fddbench.api.curves import operating_curve
     from fddbench.api.designs import tune
+    from fddbench.api.detection_curves import pod
     from fddbench.api.findings import finding
     from fddbench.api.flights import score, signals
     from fddbench.api.pages import report
     from fddbench.api.replaying import table_of
-    from fddbench.api.tables import alarms, columns, detectable, load, load_events, summary
+    from fddbench.api.summaries import summary
+    from fddbench.api.tables import alarms, columns, detectable, load, load_events
+    from fddbench.api.verifying import verify
     from fddbench.api.worst import worst
 
 __all__ = [
@@ -24,12 +28,14 @@ __all__ = [
     "alarms",
     "bounds",
     "columns",
+    "compare",
     "detectable",
     "finding",
     "load",
     "load_events",
     "operating_curve",
     "plan",
+    "pod",
     "read",
     "report",
     "run",
@@ -38,20 +44,25 @@ __all__ = [
     "summary",
     "table_of",
     "tune",
+    "verify",
     "worst",
 ]
 __version__ = "0.1.0"
 
 _ROOMS = {
     **dict.fromkeys(("plan", "read", "run"), "campaigns"),
-    **dict.fromkeys(("alarms", "columns", "detectable", "load", "load_events", "summary"), "tables"),
+    **dict.fromkeys(("alarms", "columns", "detectable", "load", "load_events"), "tables"),
     **dict.fromkeys(("score", "signals"), "flights"),
+    "compare": "comparing",
     "bounds": "bounds",
     "finding": "findings",
+    "pod": "detection_curves",
+    "summary": "summaries",
     "report": "pages",
     "table_of": "replaying",
     "operating_curve": "curves",
     "tune": "designs",
+    "verify": "verifying",
     "worst": "worst",
 }
 

@@ -36,7 +36,7 @@ def test_the_page_says_it(partial):
 
 
 def test_the_terminal_says_it_and_scores_are_refused(partial, capsys):
-    commands._summary(partial, wide=False, failed=False)
+    commands._summary(partial, overview(partial), wide=False, failed=False)
     assert capsys.readouterr().out.startswith(f"not the whole campaign: {SAID}\n")
     assert main(["scores", str(partial)]) == 2
     told = capsys.readouterr()
@@ -46,7 +46,7 @@ def test_the_terminal_says_it_and_scores_are_refused(partial, capsys):
 
 def test_a_whole_folder_says_nothing_of_it(flown, capsys):
     assert not holdings(flown).partial
-    commands._summary(flown, wide=False, failed=False)
+    commands._summary(flown, overview(flown), wide=False, failed=False)
     assert "whole" not in capsys.readouterr().out
     assert main(["scores", str(flown)]) == 0
     assert len(load(flown)) == 12

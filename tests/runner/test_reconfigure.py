@@ -254,10 +254,12 @@ def test_refuses_a_detector_on_which_nothing_can_act(write, name, reason):
 
 
 def test_refuses_a_benchmark_that_cannot_act(write):
-    path = write(["voting_monitor"], "voting_monitor", benchmark="yaw_rate", dispersions={}, scenarios=[
-        {"name": "healthy", "manoeuvre": "cruise"}
+    path = write(["hinf_final"], "hinf_final", benchmark="jet_engine", dispersions={}, scenarios=[
+        {"name": "healthy", "manoeuvre": "steps"}
     ])  # fmt: skip
-    with pytest.raises(CampaignError, match=r"campaign.yaml:\d+:\d+: benchmark 'yaw_rate' with .* cannot act on what"):
+    with pytest.raises(
+        CampaignError, match=r"campaign.yaml:\d+:\d+: benchmark 'jet_engine' with .* cannot act on what"
+    ):
         assembled(path)
 
 

@@ -55,13 +55,21 @@ def bounds_of(campaign: Campaign, *, p_fa: float = P_FA, flights: int = MOST_FLI
     if not hasattr(campaign.bench, "ideal"):
         names = [scenario.name for scenario in campaign.scenarios if scenario.faults]
         return bounds_table([{"scenario": name, "about": _UNSTATED} for name in names])
-    return bounds_table([line for one in signatures(campaign, flights) for line in _lines(campaign, one, p_fa)])
+    known: Known = {}
+    return bounds_table([line for one in signatures(campaign, flights) for line in _lines(campaign, one, p_fa, known)])
 
 
-def _lines(campaign: Campaign, signature: Signature, p_fa: float) -> Iterator[dict[str, Any]]:
+Known = dict[tuple[bytes, ...], "Mapping[str, IdealModel] | str"]
+"""Models that are stated already, by the parameters of the flights: scenarios fly the same aircraft."""
+
+
+def _lines(campaign: Campaign, signature: Signature, p_fa: float, known: Known) -> Iterator[dict[str, Any]]:
     """Lines of a scenario, model by model."""
     where = {"scenario": signature.scenario, "window_s": signature.window_s}
-    models = _models(campaign, signature)
+    key = tuple(values.tobytes() for values in signature.batch.parameters.values())
+    if key not in known:
+        known[key] = _models(campaign, signature)
+    models = known[key]
     if isinstance(models, str):
         yield where | {"about": models}
         return

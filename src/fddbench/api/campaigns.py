@@ -3,6 +3,9 @@
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+import pandas as pd
+
+from fddbench.api.tables import leave_summary
 from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.plan import Plan
@@ -53,8 +56,9 @@ def run(
     backend: str = "auto",
     progress: Callable[[Progress], None] | None = None,
     notice: Callable[[str], None] | None = None,
+    summarised: Callable[[pd.DataFrame, pd.DataFrame], None] | None = None,
 ) -> RunReport:
-    """Fly every case of a campaign that its folder of results does not hold yet.
+    """Fly every case of a campaign that its folder of results does not hold yet, and leave its summary beside the rows.
 
     Parameters
     ----------
@@ -64,6 +68,8 @@ def run(
         Where the results go, ``results/<name>`` by default.
     jobs, fresh, backend, progress, notice
         See `fddbench.runner.run.run_campaign`.
+    summarised : callable, optional
+        Called at the end of a run that was not interrupted with what ``fddbench.summary`` and ``fddbench.alarms`` give.
 
     Raises
     ------
@@ -72,4 +78,9 @@ def run(
     """
     own = campaign if isinstance(campaign, Campaign) else read(campaign)
     where = Path("results") / own.name if folder is None else Path(folder)
-    return run_campaign(own, where, jobs=jobs, fresh=fresh, backend=backend, progress=progress, notice=notice)
+    report = run_campaign(own, where, jobs=jobs, fresh=fresh, backend=backend, progress=progress, notice=notice)
+    if not report.interrupted:
+        tables = leave_summary(where)
+        if summarised is not None:
+            summarised(*tables)
+    return report

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
-from fddbench.campaign.load import find_campaign
+from fddbench.campaign.finding import find_campaign
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.reading.yaml_nodes import read_yaml
 from fddbench.design.tuning.checks import require_enough, require_tuning

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+import pyarrow as pa
 
 from fddbench.api.detectability import detectable_of
 from fddbench.errors import FddbenchError
@@ -15,10 +16,13 @@ from fddbench.metrics.detectable import DETECTABLE
 from fddbench.metrics.operating import OPERATING
 from fddbench.metrics.summary import NEEDS, SUMMARY, summarize
 from fddbench.results import table
+from fddbench.results.fingerprint import Fingerprint
+from fddbench.results.folder import provenance_of
 from fddbench.results.schema import CASE, EVENTS, rows_schema
+from fddbench.results.shards import write_table
 from fddbench.runner.fingerprint import frozen
 
-__all__ = ["alarms", "columns", "detectable", "load", "load_events", "overview", "summary"]
+__all__ = ["alarms", "columns", "detectable", "in_sample", "leave_summary", "load", "load_events", "overview"]
 
 
 def load(folder: str | Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
@@ -32,14 +36,6 @@ def load(folder: str | Path, columns: Sequence[str] | None = None) -> pd.DataFra
 def load_events(folder: str | Path) -> pd.DataFrame:
     """Events of a folder of results, one per case, detector and fault where faults are several or end."""
     return table.load_events(folder)
-
-
-def summary(folder: str | Path) -> pd.DataFrame:
-    """One line per scenario and detector: outcomes, rates with their intervals, false alarms, detection times.
-
-    The columns are those of `fddbench.metrics.summary.SUMMARY`.
-    """
-    return summarize(table.load(folder, ["case", *NEEDS]), in_sample=in_sample(folder))
 
 
 def alarms(folder: str | Path) -> pd.DataFrame:
@@ -64,6 +60,18 @@ def overview(folder: Path) -> tuple[pd.DataFrame, pd.DataFrame]:
     # scenarios in the order of the rows, in each the detectors likewise
     order = np.argsort(pd.factorize(lines["scenario"])[0], kind="stable")
     return lines.iloc[order].reset_index(drop=True), of_alarms
+
+
+def leave_summary(folder: Path) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Write ``summary.parquet`` beside the rows: what `overview` gives first; gives both."""
+    lines, of_alarms = overview(folder)
+    fingerprint = Fingerprint.of(provenance_of(folder)).sha256
+    write_table(
+        folder / "summary.parquet",
+        pa.Table.from_pandas(lines, schema=SUMMARY, preserve_index=False),
+        fingerprint=fingerprint,
+    )
+    return lines, of_alarms
 
 
 def _summarized(own: Collection[str], rows: pd.DataFrame) -> tuple[pd.DataFrame, pd.DataFrame]:

@@ -161,7 +161,12 @@ def _dispersions(dispersions: Dispersions) -> Iterator[str]:
     parts += [f"in sequence {name}: {_values(values)}" for name, values in dispersions.sequence.items()]
     if dispersions.monte_carlo:
         drawn = dispersions.monte_carlo
-        parts += [f"{drawn.runs:,} Monte-Carlo runs"]
+        how = {"random": "", "lhs": ", a Latin hypercube"}.get(
+            drawn.sampling, f", points of {drawn.sampling.capitalize()}"
+        )
+        rows = f", rows of {drawn.table}" if drawn.table else ""
+        parts += [f"{drawn.runs:,} Monte-Carlo runs{how}{rows}"]
+        parts += [f"correlation {value:g} of {one} and {other}" for one, other, value in drawn.correlation]
         parts += [f"{name} {_distribution(value)}" for name, value in drawn.parameters.items()]
     yield "Dispersed" if parts else "No dispersions: every flight has the benchmark's default parameters"
     yield from (f"  {part}" for part in parts)

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 from fddbench.errors import FddbenchError
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from fddbench.runner.assembly import Assembly
 
 __all__ = ["bound", "check", "cost", "finding", "init", "list_", "report", "run", "schema", "scores"]
@@ -22,6 +24,7 @@ def run(args: argparse.Namespace) -> int:
     from fddbench.cli.progress import shown
 
     campaign = campaigns.read(args.campaign, args.overrides)
+    kept: list[tuple[pd.DataFrame, pd.DataFrame]] = []
     with shown(campaign.name, quiet=args.quiet) as progress:
         report = campaigns.run(
             campaign,
@@ -31,6 +34,7 @@ def run(args: argparse.Namespace) -> int:
             backend=args.backend,
             progress=progress,
             notice=lambda text: print(f"fddbench: {text}", file=sys.stderr),
+            summarised=lambda *tables: kept.append(tables),
         )
     folder = report.folder
     if report.interrupted:
@@ -41,36 +45,40 @@ def run(args: argparse.Namespace) -> int:
             file=sys.stderr,
         )
         return 130
-    _summary(folder, wide=args.wide, failed=report.failed_rows > 0)
+    _summary(folder, kept[0], wide=args.wide, failed=report.failed_rows > 0)
     again = f", {report.continued} found done" if report.continued else ""
     print(f"\n{report.flights} flights flown{again} in {report.wall_s:.1f} s; results in {folder}")
     print(f"next: fddbench report {folder}")
     return 1 if report.failed_rows else 0
 
 
-def _summary(folder: Path, *, wide: bool, failed: bool) -> None:
-    """Print the summary table of a folder of results, and which of its flights failed."""
-    from fddbench.api.bounds import bounds
-    from fddbench.api.tables import overview
-    from fddbench.metrics.bound import breaches, with_bounds
+def _summary(folder: Path, tables: "tuple[pd.DataFrame, pd.DataFrame]", *, wide: bool, failed: bool) -> None:
+    """Print the summary tables of a folder of results, wide ones with their bounds, and which of its flights failed."""
     from fddbench.reporting.terminal import to_text
     from fddbench.results.whole import holdings
 
     found = holdings(folder)
     if found.partial:
         print(f"not the whole campaign: {found.sentence}")
-    summary, alarms = overview(folder)
+    summary, alarms = tables
+    print(to_text(_with_bounds(folder, summary) if wide else summary, alarms, wide=wide))
+    if failed:
+        _failures(folder)
+
+
+def _with_bounds(folder: Path, summary: "pd.DataFrame") -> "pd.DataFrame":
+    """Summary with the bound of each score; without it where none can be stated, which is said."""
+    from fddbench.api.bounds import bounds
+    from fddbench.metrics.bound import breaches, with_bounds
+
     try:
         stated = bounds(folder)
     except FddbenchError as error:  # of somebody else's benchmark; what was flown is shown all the same
         print(f"fddbench: no bound: {error}", file=sys.stderr)
-        print(to_text(summary, alarms, wide=wide))
-    else:
-        print(to_text(with_bounds(summary, stated), alarms, wide=wide))
-        for sentence in breaches(summary, stated):
-            print(f"above its bound: {sentence}")
-    if failed:
-        _failures(folder)
+        return summary
+    for sentence in breaches(summary, stated):
+        print(f"above its bound: {sentence}")
+    return with_bounds(summary, stated)
 
 
 def _failures(folder: Path) -> None:

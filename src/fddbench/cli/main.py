@@ -1,244 +1,15 @@
 """Commands of fddbench. Exit codes: 0 done, 1 done but some cases failed, 2 a mistake in what the user wrote."""
 
-import argparse
 import os
 import sys
 import warnings
-from collections.abc import Callable
-from inspect import cleandoc
 from io import TextIOWrapper
-from pathlib import Path
-from textwrap import fill
 from typing import Any
 
-from fddbench import __version__
-from fddbench.cli import aircraft, commands, completing, designing, looking
+from fddbench.cli.arguments import parser
 from fddbench.errors import FddbenchError, ResultsWarning
 
 __all__ = ["entry", "main", "parser"]
-
-_WIDTH = 78
-"""Columns of help: those of a terminal of 80, less what argparse keeps free."""
-
-
-def parser() -> argparse.ArgumentParser:
-    """Parser of all commands; the docstring of a command is its help."""
-    top = argparse.ArgumentParser(
-        prog="fddbench",
-        description="Monte-Carlo benchmark campaigns for aerospace fault detection and diagnosis.",
-        epilog="Exit codes: 0 done, 1 done but some cases failed, 2 a mistake in what you wrote, 130 interrupted.",
-    )
-    top.add_argument("--version", action="version", version=f"fddbench {__version__}")
-    subs = top.add_subparsers(metavar="COMMAND")
-
-    run = _add(subs, "run", commands.run)
-    _campaign(run)
-    run.add_argument(
-        "--out", type=Path, metavar="DIR", help="folder of results (default: results/<name of the campaign>)"
-    )
-    run.add_argument(
-        "--jobs", type=_jobs, default=2, metavar="N", help="worker processes (default: 2); no part of any result"
-    )
-    run.add_argument("--fresh", action="store_true", help="replace what the folder holds")
-    run.add_argument(
-        "--backend", choices=("auto", "llvm", "numpy"), default="auto",
-        help="compiled where llvmlite is installed (auto), always, or never; no part of any result",
-    )  # fmt: skip
-    run.add_argument("--quiet", action="store_true", help="no progress")
-    run.add_argument("--wide", action="store_true", help="every column of the table, as wide as it is")
-
-    _reading(subs)
-    _looking(subs)
-
-    cost = _add(subs, "cost", commands.cost)
-    cost.add_argument("detector", metavar="DETECTOR", help="name of a design")
-    cost.add_argument(
-        "--campaign",
-        type=Path, metavar="CAMPAIGN.yaml",
-        help="campaign whose benchmark and sample time count (default: the first shipped one that feeds it)",
-    )  # fmt: skip
-
-    _bound(_add(subs, "bound", commands.bound))
-
-    check = _add(subs, "check", commands.check)
-    _campaign(check)
-
-    design = _add(subs, "design", designing.design)
-    design.add_argument("design", type=Path, metavar="FILE", help="design file with a recipe")
-    design.add_argument("--output", type=Path, metavar="FILE", help="where to write the design (default: print it)")
-    design.add_argument("--force", action="store_true", help="replace the file when it exists")
-    _tune(_add(subs, "tune", designing.tune))
-
-    _modes(_add(subs, "modes", aircraft.modes))
-    _asking(subs)
-    completing.attach(top)
-    return top
-
-
-def _add(subs, name: str, command: Callable[[argparse.Namespace], int]) -> argparse.ArgumentParser:  # type: ignore[no-untyped-def]
-    paragraphs = cleandoc(command.__doc__ or "").split("\n\n")
-    text = "\n\n".join(fill(" ".join(each.split()), _WIDTH) for each in paragraphs)
-    added: argparse.ArgumentParser = subs.add_parser(
-        name, help=paragraphs[0], description=text, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    added.set_defaults(command=command)
-    return added
-
-
-def _reading(subs) -> None:  # type: ignore[no-untyped-def]
-    """Commands that read a folder of results."""
-    report = _add(subs, "report", commands.report)
-    report.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
-    report.add_argument("--output", type=Path, metavar="FILE", help="page to write (default: DIR/report.html)")
-
-    scores = _add(subs, "scores", commands.scores)
-    scores.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
-
-    finding = _add(subs, "finding", commands.finding)
-    finding.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
-
-
-def _looking(subs) -> None:  # type: ignore[no-untyped-def]
-    """Commands that look at single flights."""
-    replay = _add(subs, "replay", looking.replay)
-    replay.add_argument("source", type=Path, metavar="DIR", help="folder of results, or a campaign")
-    replay.add_argument("case", metavar="CASE", help="name of the flight as in the column case, jam_a/3/0/17")
-    replay.add_argument(
-        "--detector", action="append", default=[], metavar="NAME", help="show this detector alone (may be repeated)"
-    )
-    replay.add_argument(
-        "--signal",
-        action="append",
-        default=[],
-        metavar="NAME",
-        help="draw this signal (may be repeated; default: a few)",
-    )
-    replay.add_argument("--plot", type=Path, metavar="FILE", help="picture to write: .html, .png, .svg or .pdf")
-    replay.add_argument("--to", type=Path, metavar="FILE", help="table to write: .csv, .parquet, .mat or .h5")
-
-    worst = _add(subs, "worst", looking.worst)
-    worst.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
-    worst.add_argument(
-        "--detector", action="append", default=[], metavar="NAME", help="this detector alone (may be repeated)"
-    )
-    worst.add_argument(
-        "--most", type=_jobs, default=3, metavar="N", help="flights of a kind in a scenario (default: 3)"
-    )
-
-
-def _asking(subs) -> None:  # type: ignore[no-untyped-def]
-    """Commands that tell what there is, and that give something to start from."""
-    ask = _add(subs, "list", commands.list_)
-    ask.add_argument(
-        "subject", nargs="?", default="", metavar="SUBJECT",
-        help="name of a benchmark, or benchmarks, faults, voters, detectors, campaigns, designs (default: everything)",
-    )  # fmt: skip
-    init = _add(subs, "init", commands.init)
-    init.add_argument("folder", type=Path, nargs="?", default=Path(), metavar="DIR", help="where to (default: here)")
-    names = "[--detector NAME | --benchmark NAME |\n                     --fault NAME | --campaign NAME]"
-    init.usage = f"fddbench init [-h] [DIR] {names}"  # argparse does not break a group
-    one = init.add_mutually_exclusive_group()
-    for what in ("detector", "benchmark", "fault", "campaign"):
-        one.add_argument(f"--{what}", metavar="NAME", help=f"a small {what} of your own, and a campaign that flies it")
-    _add(subs, "schema", commands.schema)
-    completion = _add(subs, "completion", completing.completion)
-    completion.add_argument("shell", choices=completing.SHELLS, help="bash, zsh or fish")
-
-
-def _campaign(command: argparse.ArgumentParser) -> None:
-    command.add_argument(
-        "campaign", type=Path, metavar="CAMPAIGN.yaml", help="campaign file, or the name of a shipped one"
-    )
-    command.add_argument(
-        "--set", action="append", default=[], metavar="PATH=VALUE", dest="overrides",
-        help="change a value of the campaign, e.g. dispersions.monte_carlo.runs=10 (may be repeated)",
-    )  # fmt: skip
-
-
-def _bound(command: argparse.ArgumentParser) -> None:
-    command.add_argument(
-        "campaign",
-        type=Path,
-        metavar="CAMPAIGN.yaml",
-        help="campaign file, name of a shipped one, or folder of results",
-    )
-    command.add_argument(
-        "--p-fa", type=_probability, default=1e-6, metavar="P", help="false alarms of one decision (default: 1e-6)"
-    )
-    command.add_argument(
-        "--flights",
-        type=_flights,
-        default=25,
-        metavar="N",
-        help="flights of a scenario that are looked at (default: 25)",
-    )
-
-
-def _tune(command: argparse.ArgumentParser) -> None:
-    command.add_argument("design", type=Path, metavar="DESIGN", help="name of a design, or its file")
-    _campaign(command)
-    target = command.add_mutually_exclusive_group()
-    target.add_argument(
-        "--false-alarm-rate", type=_share, metavar="SHARE",
-        help="largest share of these very flights with a false alarm (default: 0.01)",
-    )  # fmt: skip
-    target.add_argument("--per-flight", type=_share, metavar="SHARE", help="largest share of other flights, e.g. 0.01")
-    target.add_argument("--per-hour", type=float, metavar="RATE", help="most false alarms per hour of other flights")
-    command.add_argument(
-        "--confidence", type=_share, metavar="SHARE", help="with which that holds, e.g. 0.95 (default: on average)"
-    )
-    command.add_argument(
-        "--by", choices=("factor", "residual"),
-        help="one factor on all thresholds, or equally many flights beyond each residual (default where the kind shows them)",
-    )  # fmt: skip
-    command.add_argument("--only", metavar="KEY[,KEY]", help="tune only these thresholds, by one factor")
-    command.add_argument(
-        "--output", type=Path, metavar="FILE", help="file to write (default: detectors/DESIGN_tuned.yaml)"
-    )
-    command.add_argument("--force", action="store_true", help="replace the file when it exists")
-
-
-def _modes(command: argparse.ArgumentParser) -> None:
-    command.add_argument(
-        "aircraft", type=Path, nargs="?", metavar="FILE", help="file of an aircraft (default: the shipped twin-jet)"
-    )
-    command.add_argument("--feasible", action="store_true", help="only the points that it can fly")
-
-
-def _share(text: str) -> float:
-    """Share of flights."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = -1.0
-    if not 0.0 <= value < 1.0:
-        raise argparse.ArgumentTypeError(f"need a share from 0 to below 1, e.g. 0.01 for 1 %, got {text!r}")
-    return value
-
-
-def _probability(text: str) -> float:
-    """Probability of a false alarm."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = -1.0
-    if not 0.0 < value < 1.0:
-        raise argparse.ArgumentTypeError(f"need a probability above 0 and below 1, e.g. 1e-6, got {text!r}")
-    return value
-
-
-def _flights(text: str) -> int:
-    """Number of flights."""
-    if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= 10_000:
-        raise argparse.ArgumentTypeError(f"need a whole number from 1 to 10000, got {text!r}")
-    return int(text)
-
-
-def _jobs(text: str) -> int:
-    """Number of workers."""
-    if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= 256:
-        raise argparse.ArgumentTypeError(f"need a whole number from 1 to 256, got {text!r}")
-    return int(text)
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -290,7 +61,9 @@ def _say_in_words() -> None:
 def entry() -> None:
     """Entry point of the installed command."""
     if "_ARGCOMPLETE" in os.environ:  # a shell asks for what may come next
-        completing.answer(parser())
+        from fddbench.cli.completing import answer
+
+        answer(parser())
     # what is freed goes back to the system: a tenth less memory for tables of many rows
     os.environ.setdefault("ARROW_DEFAULT_MEMORY_POOL", "system")
     sys.exit(main())

@@ -93,7 +93,7 @@ class KalmanGust:
         self, x: KalmanGustState, c: Nothing, n: Nothing, measured: SimpleNamespace
     ) -> tuple[KalmanGustState, Verdict]:
         """Verdict after one sample."""
-        r_deg_s, declared = measured.r_deg_s, x.decision.declared
+        r_deg_s, declared = measured.r_deg_s, x.decision.standing.declared
         _, differ = self.decision.apart(x.decision, r_deg_s)
         believed = 1.0 - declared
         n_declared = total(declared)

@@ -108,7 +108,12 @@ class Tunable(Protocol):
 
 
 class Voter(Protocol):
-    """Makes one signal of redundant sensors; a class without arguments registered under ``fddbench.voters``."""
+    """Makes one signal of redundant sensors; a class without arguments registered under ``fddbench.voters``.
+
+    One whose numbers depend on what it votes has a class method ``for_signal(signal, n_sensors, sample_s)`` that makes it.
+    Where a campaign says ``reconfigure``, the mean of the sensors left is voted instead once some are declared; one that keeps
+    something and says ``reconfigures = True`` votes then too, with the declared ones as a third argument of its step.
+    """
 
     def vote(self, sensors: Rows) -> Row:
         """Voted signal, (n_cases,), of the sensors, (n_sensors, n_cases); same unit."""

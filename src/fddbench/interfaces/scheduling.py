@@ -12,7 +12,7 @@ __all__ = ["AffineModel", "Channel", "Scheduling"]
 
 @dataclass(frozen=True, kw_only=True)
 class Channel:
-    """A number that a filter takes: ``scale (signal[row] - offset)``, or a constant.
+    """A number that a filter takes: ``scale (signal[row] - offset)``, perhaps times another signal, or a constant.
 
     Attributes
     ----------
@@ -24,6 +24,8 @@ class Channel:
         Row of a signal that has several.
     held : bool
         Whether the plant holds it from sample to sample, as one does with what it gets from a computer.
+    times : str
+        Signal of one row that it is multiplied by, such as the airspeed that makes a velocity of an angle; "": by none.
     """
 
     signal: str = ""
@@ -31,6 +33,7 @@ class Channel:
     offset: float = 0.0
     row: int | None = None
     held: bool = False
+    times: str = ""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

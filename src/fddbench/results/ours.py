@@ -11,7 +11,7 @@ from fddbench.results.manifest import survey
 
 __all__ = ["RESERVED", "clear", "refuse_foreign"]
 
-_FIXED = ("campaign.yaml", "manifest.jsonl", "report.html", "provenance.json", ".lock", ".pid")
+_FIXED = ("campaign.yaml", "manifest.jsonl", "report.html", "summary.parquet", "provenance.json", ".lock", ".pid")
 RESERVED = frozenset({*_FIXED, "rows", "events"})
 """Names in a folder of results that no file beside a campaign can have when it travels there."""
 _SHARD = re.compile(r"(rows|events)/[0-9-]+\.parquet")
@@ -81,7 +81,16 @@ def _refuse_unknown(folder: Path, names: Collection[str], *, recognised: bool) -
 def clear(folder: Path, carried: Collection[str]) -> None:
     """Remove what fddbench writes, the provenance last: a folder that is half cleared is still known as ours."""
     frozen = [name for name in carried if _may_be_frozen(name)]
-    for name in ("manifest.jsonl", "rows", "events", "detectors", *frozen, "campaign.yaml", "report.html"):
+    for name in (
+        "manifest.jsonl",
+        "rows",
+        "events",
+        "detectors",
+        *frozen,
+        "campaign.yaml",
+        "report.html",
+        "summary.parquet",
+    ):
         path = folder / name
         if path.is_dir() and not path.is_symlink():
             shutil.rmtree(path)

@@ -12,7 +12,7 @@ from fddbench.voting.block import VoterBlock
 
 __all__ = ["check_voter"]
 
-_CASES, _SAMPLES = 5, 20
+_CASES, _SAMPLES, _SAMPLE_S = 5, 20, 0.01
 
 
 def check_voter(name: str, *, beside: str | Path = ".", n_sensors: int = 3) -> None:
@@ -40,7 +40,8 @@ def check_voter(name: str, *, beside: str | Path = ".", n_sensors: int = 3) -> N
     --------
     >>> check_voter("median")
     """
-    block = VoterBlock(kinds.find("voter", name, beside=Path(beside)).member())
+    kind = kinds.find("voter", name, beside=Path(beside)).member
+    block = VoterBlock.on(kind, "r_deg_s", n_sensors, _SAMPLE_S)
     sensors = np.random.default_rng(3).normal(size=(_SAMPLES, n_sensors, _CASES))
     together = _voted(block, sensors)
     require(together.shape == (_SAMPLES, _CASES), f"{name} gives the shape {together.shape[1:]}, needs (n_cases,)")

@@ -8,6 +8,7 @@ from fddbench.blocks.block import NO_DRAWS, NOTHING
 from fddbench.blocks.drawn import Draws
 from fddbench.blocks.layout import Layout, Nothing, Row, Rows
 from fddbench.errors import FddbenchError
+from fddbench.voting.mean_of_left import mean_of_left
 
 __all__ = ["VoterBlock"]
 
@@ -18,7 +19,8 @@ class VoterBlock:
     Parameters
     ----------
     voter : Voter
-        With ``vote(sensors)``; or, if it keeps something, with ``states``, ``start()`` and ``step(x, sensors)``.
+        With ``vote(sensors)``; or, if it keeps something, with ``states``, ``start()`` and ``step(x, sensors)``. One that keeps
+        something and says ``reconfigures = True`` is handed what is declared, as ``step(x, sensors, declared)``.
     """
 
     constants: Layout[Any] = NOTHING
@@ -28,15 +30,30 @@ class VoterBlock:
         self.voter = voter
         self.states: Layout[Any] = getattr(voter, "states", NOTHING)
         self.keeps = self.states.size > 0
+        self.is_told = self.keeps and getattr(voter, "reconfigures", False)
+
+    @classmethod
+    def on(cls, kind: Any, signal: str, n_sensors: int, sample_s: float) -> "VoterBlock":
+        """Block of a kind of voter for a signal; a kind whose numbers depend on it has ``for_signal`` of the same arguments."""
+        made = getattr(kind, "for_signal", None)
+        return cls(kind() if made is None else made(signal, n_sensors, sample_s))
 
     def start(self, c: Nothing) -> Any:
         """Of the voter."""
         return self.voter.start() if self.keeps else c
 
-    def step(self, x: Any, c: Nothing, n: Nothing, sensors: Rows) -> tuple[Any, Row]:
-        """State at the next sample, and the voted signal at this one."""
+    def step(self, x: Any, c: Nothing, n: Nothing, sensors: Rows, declared: Rows = None) -> tuple[Any, Row]:
+        """State at the next sample, and the voted signal at this one.
+
+        Of `declared` sensors, rows of 0 and 1, the vote is taken without them: the mean of those left. Where all are declared
+        that says nothing about which to believe, and the vote is that of all; rows of zeros are None, bit for bit.
+        """
         del c, n
-        after, voted = self.voter.step(x, sensors) if self.keeps else (x, self.voter.vote(sensors))
+        if self.is_told:
+            after, voted = self.voter.step(x, sensors, declared)
+        else:
+            after, voted = self.voter.step(x, sensors) if self.keeps else (x, self.voter.vote(sensors))
+            voted = voted if declared is None else mean_of_left(sensors, declared, voted)
         if np.shape(voted) != np.shape(sensors)[1:]:
             raise FddbenchError(
                 f"the voter {type(self.voter).__name__} gives a signal of shape {np.shape(voted)}, needs (n_cases,): one row"

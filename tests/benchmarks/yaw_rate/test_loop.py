@@ -252,7 +252,7 @@ def test_choices_and_their_defaults(bench):
     found = {key: tuple(choice.options) for key, choice in bench.benchmark.choices.items()}
     assert found == {
         "plant": ("lateral_lpv", "transport_6dof"),
-        "voter": ("median", "closest_two"),
+        "voter": ("median", "closest_two", "monitored"),
         "sensors": ("white", "ideal", "iru"),
         "wind": ("none", "light", "moderate", "severe", "one_minus_cosine"),
     }

@@ -78,9 +78,11 @@ JAM, PAIR = np.array([0.5, 0.0, 0.0]), np.array([1.0, 1.0, 0.0])
         (lambda t: np.array([1.0, -1.0, 0.0]), [1, 1, 0], 0.2),
         (lambda t: 0.3 * t * PAIR, [1, 1, 0], 3.0),
         (lambda t: 1.5 * np.sin(0.5385 * t) * PAIR[::-1], [0, 1, 1], 0.5),
+        (lambda t: 128.0 * np.sign(np.sin(60.0 * t)) * JAM, [1, 0, 0], 0.2),
+        (lambda t: JAM + (0.0 if t < 2.0 else 1.0) * np.array([0.0, 0.0, 1.0]), [1, 0, 1], None),
         (lambda t: np.zeros(3), [0, 0, 0], None),
     ],
-    ids=["jam", "pair", "opposite", "ramp", "oscillation", "healthy"],
+    ids=["jam", "pair", "opposite", "ramp", "oscillation", "wild", "one after the other", "healthy"],
 )
 def test_finds_what_is_wrong(fault, expected, within_s):
     declared, _ = declared_of(sensors(fault))

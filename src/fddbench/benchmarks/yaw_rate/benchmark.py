@@ -12,6 +12,7 @@ from fddbench.interfaces import Choice, Floats, IdealModel, Loop, Options
 from fddbench.kinds import Named
 from fddbench.voting.closest_two import ClosestTwo
 from fddbench.voting.median import Median
+from fddbench.voting.monitored import Monitored
 
 __all__ = ["YawRate"]
 
@@ -48,7 +49,7 @@ class YawRate:
         ),
         "voter": Choice(
             about="how the sensors are voted",
-            options={"median": Median, "closest_two": ClosestTwo},
+            options={"median": Median, "closest_two": ClosestTwo, "monitored": Monitored},
             family="voter",
             needs=("vote",),
         ),

@@ -69,7 +69,7 @@ class LateralLoop:
 
     The measured bus holds what a flight computer has: bank and sideslip angle, roll rate, the redundant yaw rates and the
     voted one, surface positions, airspeeds, mass, X_cg and altitude, all with their measurement errors. Of inertial units bank
-    angle and roll rate are voted, and those of the units are on the bus too.
+    angle and roll rate are voted, and those of the units are on the bus too. Sensors that are declared leave their vote.
 
     Parameters
     ----------
@@ -83,6 +83,7 @@ class LateralLoop:
         Clock and faults.
     """
 
+    reconfigures = True
     truth = (
         "phi_true_deg",
         "beta_true_deg",
@@ -109,7 +110,8 @@ class LateralLoop:
         )
         self.sensors = sensors_of(noise, self.breaking.n_sites("r_deg_s"), options.sample_s)
         self.of_units = (P_UNITS, PHI_UNITS) if self.sensors.n_units else ()
-        self.voters = Voters(voter, ("r_deg_s", *self.of_units))
+        voted = dict.fromkeys(("r_deg_s", *self.of_units), self.sensors.n_rates)
+        self.voters = Voters(voter, voted, sites, options.sample_s)
         self.law, self.actuators = LateralLaw(options.sample_s), plant.actuators()
         self.states = Layout(
             LoopState(
@@ -175,7 +177,9 @@ class LateralLoop:
             faults=self.breaking.start(c.faults),
         )
 
-    def step(self, x: LoopState, c: LoopConstants, n: LoopDraws, sample: Row) -> tuple[LoopState, Sample]:
+    def step(
+        self, x: LoopState, c: LoopConstants, n: LoopDraws, sample: Row, declared: Rows = None
+    ) -> tuple[LoopState, Sample]:
         """One sample, see `fddbench.interfaces.Loop.step`."""
         gust, air = self.gust.step(x.gust, c.gust, n.gust, sample, like=x.actuators.position_deg[0])
         breaking = self.breaking.begin(x.faults, c.faults, n.faults, sample)
@@ -187,7 +191,7 @@ class LateralLoop:
         )  # fmt: skip
         healthy = {"r_deg_s": readings.r_deg_s, P_UNITS: readings.p_deg_s, PHI_UNITS: readings.phi_deg}
         units = {name: breaking.broken(name, healthy[name]) for name in ("r_deg_s", *self.of_units)}
-        voters, voted = self.voters.step(x.voters, units)
+        voters, voted = self.voters.step(x.voters, units, declared)
         measured = _measured(motion, readings, units, voted, surface_deg)
         law, orders_deg = self.law.step(x.law, Nothing(), Nothing(), measured, motion.bank_command_deg)
         actuators, _ = self.actuators.step(x.actuators, Nothing(), Nothing(), orders_deg, *self.plant.travel(c.plant))

@@ -7,6 +7,7 @@ from typing import Any
 
 from fddbench import kinds
 from fddbench.campaign.reading.document import Address, Document
+from fddbench.campaign.rules.model import MonteCarlo
 from fddbench.errors import FddbenchError, Mistake, did_you_mean
 from fddbench.interfaces import Benchmark, Choice, Plant
 
@@ -118,7 +119,7 @@ def _unknown_parameters(document: Document, benchmark: Benchmark, plant: Plant) 
     for block in ("grid", "sequence", "monte_carlo"):
         for name in document.mapping("dispersions", block):
             address: Address = ("dispersions", block, name)
-            if (block, name) == ("monte_carlo", "runs"):
+            if block == "monte_carlo" and name in MonteCarlo.model_fields:
                 continue
             if name in plant.refused_parameters:
                 reason = plant.refused_parameters[name]

@@ -134,3 +134,7 @@ class KalmanGustRecipe(Recipe):
 
 class ObserverBankRecipe(KalmanGustRecipe):
     """How the numbers of an `observer_bank` design come about."""
+
+
+class MultipleModelRecipe(KalmanGustRecipe):
+    """How the numbers of a `multiple_model` design come about."""

@@ -31,20 +31,7 @@ def linearised(model: AffineModel, scheduling: Scheduling, at: Mapping[str, floa
     DesignError
         A signal is not given, or the outputs do not give the state.
     """
-    needed = [c.signal for c in (*model.outputs, *model.inputs) if c.signal]
-    missing = [name for name in dict.fromkeys([*needed, *scheduling.signals]) if name not in at]
-    if missing:
-        raise DesignError(
-            f"recipe.at: {', '.join(missing)} missing; give every signal that model and scheduling look at"
-        )
-    unknown = [name for name in at if name not in (*needed, *scheduling.signals)]
-    if unknown:
-        raise DesignError(
-            f"recipe.at: nothing looks at {', '.join(unknown)}; model and scheduling look at "
-            f"{', '.join(dict.fromkeys([*needed, *scheduling.signals]))}"
-        )
-    if model.C.shape[0] != model.C.shape[1] or np.linalg.matrix_rank(model.C) < len(model.C):
-        raise DesignError("recipe.at needs a model whose outputs give its state: C square and regular")
+    _refuse_unfit(model, scheduling, at)
     u0 = np.array([_number(c, at) for c in model.inputs])
     x0 = np.linalg.solve(model.C, np.array([_number(c, at) for c in model.outputs]))
 
@@ -75,6 +62,29 @@ def linearised(model: AffineModel, scheduling: Scheduling, at: Mapping[str, floa
         inputs=(*(replace(model.inputs[j], offset=at[model.inputs[j].signal]) for j in signals), Channel()),
         box=np.zeros((0, 2)),
     )
+
+
+def _refuse_unfit(model: AffineModel, scheduling: Scheduling, at: Mapping[str, float]) -> None:
+    """Refuse conditions that say too little or too much, and models that cannot be linearised."""
+    needed = [c.signal for c in (*model.outputs, *model.inputs) if c.signal]
+    missing = [name for name in dict.fromkeys([*needed, *scheduling.signals]) if name not in at]
+    if missing:
+        raise DesignError(
+            f"recipe.at: {', '.join(missing)} missing; give every signal that model and scheduling look at"
+        )
+    multiplied = [c.signal for c in (*model.outputs, *model.inputs) if c.times]
+    if multiplied:
+        raise DesignError(
+            f"recipe.at: {', '.join(multiplied)} is multiplied by another signal and cannot be linearised"
+        )
+    unknown = [name for name in at if name not in (*needed, *scheduling.signals)]
+    if unknown:
+        raise DesignError(
+            f"recipe.at: nothing looks at {', '.join(unknown)}; model and scheduling look at "
+            f"{', '.join(dict.fromkeys([*needed, *scheduling.signals]))}"
+        )
+    if model.C.shape[0] != model.C.shape[1] or np.linalg.matrix_rank(model.C) < len(model.C):
+        raise DesignError("recipe.at needs a model whose outputs give its state: C square and regular")
 
 
 def _refuse_outside(rho: Floats, box: Box) -> None:

@@ -6,12 +6,14 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import Field
 
-from fddbench.campaign.rules.model import Name, Strict
+from fddbench.campaign.rules.model import Name
 from fddbench.design.geometric import ResidualGenerator, residual_generator
-from fddbench.design.geometric.affine import Box, family
-from fddbench.design.recipes.model_keys import Family, ModelRecipe, as_family, channel_data
+from fddbench.design.geometric.affine import Box
+from fddbench.design.recipes.fault_directions import Direction, DirectionEntry, direction_of, spelled_out
+from fddbench.design.recipes.flown_outputs import FlownOutputs
+from fddbench.design.recipes.model_keys import ModelRecipe, channel_data
 from fddbench.design.recipes.recipe import Made, RecipeError, short
-from fddbench.detection.lpv_filter.gains import NonZero, TrimEntry
+from fddbench.detection.lpv_filter.gains import SensorsEntry, TrimEntry
 from fddbench.errors import DesignError
 from fddbench.interfaces import AffineModel, Floats
 
@@ -19,24 +21,6 @@ __all__ = ["DirectionEntry", "LpvFilterRecipe"]
 
 _NOISE = 1e-13
 """What over the box is smaller than this share of the largest number of its column is rounding, and written as 0."""
-
-
-class DirectionEntry(Strict):
-    """How a fault, or a disturbance, enters the states.
-
-    Attributes
-    ----------
-    input : str
-        As this input of the model does: an actuator. The estimate is in the unit of its signal.
-    direction : matrix or list of matrices of one column
-        Instead: L, or L_0, L_1, ....
-    unit_per_fault : float
-        Unit of the site per unit of the fault, with `direction`.
-    """
-
-    input: str | None = None
-    direction: Family | None = None
-    unit_per_fault: NonZero = 1.0
 
 
 Directions = dict[Name, DirectionEntry]
@@ -61,6 +45,8 @@ class LpvFilterRecipe(ModelRecipe):
         Copied into the gains [s].
     trim : TrimEntry
         Copied into the gains.
+    sensors : SensorsEntry
+        Copied into the gains.
     """
 
     faults: Annotated[Directions, Field(min_length=1)]
@@ -70,6 +56,7 @@ class LpvFilterRecipe(ModelRecipe):
     smooth_s: dict[Name, Annotated[float, Field(ge=0.0)]] = Field(default_factory=dict)
     confirm_s: Annotated[float, Field(ge=0.0)]
     trim: TrimEntry | None = None
+    sensors: SensorsEntry | None = None
 
     @classmethod
     def spelled_out(cls, written: Mapping[str, Any]) -> dict[str, Any]:
@@ -77,7 +64,7 @@ class LpvFilterRecipe(ModelRecipe):
         whole = super().spelled_out(written)
         for key in ("faults", "blind_to"):
             if isinstance(whole.get(key), dict):
-                whole[key] = {name: _entry(value) for name, value in whole[key].items()}
+                whole[key] = {name: spelled_out(value) for name, value in whole[key].items()}
         return whole
 
     def make(self) -> Made:
@@ -85,28 +72,43 @@ class LpvFilterRecipe(ModelRecipe):
         model = self.affine()
         directions = self._directions(model)
         box = Box.of(model.box.tolist() or None, len(model.A) - 1)
-        bank = residual_generator(
-            model.A, model.B, model.C, {name: L for name, (L, _) in directions.items()},
-            box=model.box.tolist() or None, decay=self.decay, watch=list(self.faults), one_state=self.one_state,
-        )  # fmt: skip
+        bank = {name: self._generator(model, directions, name) for name in self.faults}
+        flown = FlownOutputs.of(
+            model, {name: (d.output, self.faults[name].reads) for name, d in directions.items() if name in self.faults}
+        )
         gains: dict[str, Any] = {
             "scheduling": self.flown_scheduling,
-            "outputs": [channel_data(channel) for channel in model.outputs],
+            "outputs": [channel_data(channel) for channel in flown.channels],
             "inputs": [channel_data(channel) for channel in model.inputs],
-            "bend": _members(model.C @ model.A @ np.linalg.pinv(model.C), box),
+            "bend": _members(flown.bend(model), box),
             "filters": [
-                _filter(found, model, box, directions[name][1]) | self._smoothed(name) for name, found in bank.items()
+                _filter(found, model, box, directions[name], flown, name) | self._smoothed(name)
+                for name, found in bank.items()
             ],
             "thresholds": [1.0] * len(bank),
             "confirm_s": self.confirm_s,
         }
         gains |= {} if self.trim is None else {"trim": self.trim.model_dump(mode="json")}
+        gains |= {} if self.sensors is None else {"sensors": self.sensors.model_dump(mode="json")}
         moving = box.active(model.A)
         found = {"parameters_in_A": [j + 1 for j in moving], "corners": 2 ** len(moving)}
         return Made(gains=gains, found=found | {name: _findings(one) for name, one in bank.items()})
 
-    def _directions(self, model: AffineModel) -> dict[str, tuple[Floats, float]]:
-        """Direction of every fault, and the unit of its site per unit in the model; all that is wrong at once."""
+    def _generator(self, model: AffineModel, directions: Mapping[str, Direction], name: str) -> ResidualGenerator:
+        """Filter of one fault; other sensors of the same output are no part of what it sees."""
+        own = directions[name]
+        others = {
+            other: one.hidden
+            for other, one in directions.items()
+            if other != name and not (other in self.faults and one.output is not None and one.output == own.output)
+        }
+        return residual_generator(
+            model.A, model.B, model.C, {name: own.seen, **others},
+            box=model.box.tolist() or None, decay=self.decay, watch=[name], one_state=self.one_state,
+        )[name]  # fmt: skip
+
+    def _directions(self, model: AffineModel) -> dict[str, Direction]:
+        """Direction of every fault; all that is wrong at once."""
         twice = sorted(set(self.faults) & set(self.blind_to))
         unknown = sorted(set(self.smooth_s) - set(self.faults))
         wrong = [f"recipe.blind_to: {name!r} has a filter; take it away there or from faults" for name in twice]
@@ -115,7 +117,7 @@ class LpvFilterRecipe(ModelRecipe):
         directions = {}
         for name, entry in (self.faults | self.blind_to).items():
             try:
-                directions[name] = _direction(name, entry, model)
+                directions[name] = direction_of(name, entry, model)
             except DesignError as error:
                 wrong.append(error.message)
         if wrong:
@@ -126,47 +128,26 @@ class LpvFilterRecipe(ModelRecipe):
         return {"smooth_s": self.smooth_s[name]} if self.smooth_s.get(name) else {}
 
 
-def _entry(value: Any) -> Any:
-    """The block that a fault's short form stands for."""
-    if isinstance(value, dict) and "direction" in value:
-        return value | {"direction": as_family(value["direction"])}
-    return {"input": value} if isinstance(value, str) else value
-
-
-def _direction(name: str, entry: DirectionEntry, model: AffineModel) -> tuple[Floats, float]:
-    """Direction of a fault, and the unit of its site per unit in the model."""
-    if (entry.input is None) == (entry.direction is None):
-        raise DesignError(f"recipe: fault {name!r} has an input or a direction, one of both")
-    if entry.direction is not None:
-        shape, lone = (model.A.shape[1], 1), len(entry.direction) == 1
-        given = entry.direction[0] if lone else entry.direction
-        return family(f"the direction of fault {name!r}", given, shape, len(model.A) - 1), entry.unit_per_fault
-    signals = [channel.signal for channel in model.inputs]
-    if signals.count(entry.input or "") != 1:
-        raise DesignError(
-            f"recipe: fault {name!r} enters as input {entry.input!r}, which the model has {signals.count(entry.input or '')} "
-            f"times; its inputs are {', '.join(filter(None, signals))}"
-        )
-    column = signals.index(entry.input or "")
-    return model.B[:, :, [column]], 1.0 / model.inputs[column].scale
-
-
-def _filter(found: ResidualGenerator, model: AffineModel, box: Box, unit_per_fault: float) -> dict[str, Any]:
+def _filter(
+    found: ResidualGenerator, model: AffineModel, box: Box, own: Direction, flown: FlownOutputs, name: str
+) -> dict[str, Any]:
     """Numbers of one filter as its design writes them."""
     points = box.looked_at(box.active(found.N, found.PL))
     least = min(float(np.linalg.norm(found.steady_gain(rho))) for rho in points)
-    return {
+    start = (found.P @ np.linalg.pinv(model.C))[np.newaxis]
+    written = {
         "site": found.fault,
         "N": _members(found.N, box),
-        "G": _members(found.G, box),
+        "G": _members(flown.placed(found.G, name), box),
         "F": _members(found.F, box, np.abs(found.P) @ np.abs(model.B)),
         "M": _members(found.M[np.newaxis], box)[0],
-        "H": _members(found.H[np.newaxis], box)[0],
+        "H": _members(flown.placed(found.H[np.newaxis], name), box)[0],
         "PL": _members(found.PL, box),
-        "start": _members((found.P @ np.linalg.pinv(model.C))[np.newaxis], box)[0],
-        "unit_per_fault": unit_per_fault,
+        "start": _members(flown.placed(start, name), box)[0],
+        "unit_per_fault": own.unit_per_fault,
         "least_gain": 0.5 * least,
     }
+    return written if own.output is None else written | {"output": flown.places[name][own.output]}
 
 
 def _members(table: Floats, box: Box, terms: Floats | None = None) -> list[list[list[float]]]:

@@ -120,7 +120,14 @@ def _lone(given: Family) -> Any:
 def _channel(entry: ChannelEntry) -> Channel:
     if entry.signal is None:
         return Channel(scale=float(entry.constant or 0.0))
-    return Channel(signal=entry.signal, scale=entry.scale, offset=entry.offset, row=entry.row, held=entry.held)
+    return Channel(
+        signal=entry.signal,
+        scale=entry.scale,
+        offset=entry.offset,
+        row=entry.row,
+        held=entry.held,
+        times=entry.times or "",
+    )
 
 
 def channel_data(channel: Channel) -> dict[str, Any]:
@@ -131,4 +138,5 @@ def channel_data(channel: Channel) -> dict[str, Any]:
     written |= {"scale": channel.scale} if channel.scale != 1.0 else {}
     written |= {"offset": channel.offset} if channel.offset else {}
     written |= {"row": channel.row} if channel.row is not None else {}
+    written |= {"times": channel.times} if channel.times else {}
     return written | ({"held": True} if channel.held else {})

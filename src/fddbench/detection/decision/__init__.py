@@ -11,6 +11,7 @@ from fddbench.detection.decision.agreement import live_mean, live_sensors, sprea
 from fddbench.detection.decision.confirmation import Confirmation, ConfirmationState
 from fddbench.detection.decision.miscompare import Compared, Miscompare, MiscompareState
 from fddbench.detection.decision.nearest import Decision, Nearest, NearestGains, NearestState
+from fddbench.detection.decision.standing import Standing, StandingGains, StandingState
 
 __all__ = [
     "Compared",
@@ -22,6 +23,9 @@ __all__ = [
     "Nearest",
     "NearestGains",
     "NearestState",
+    "Standing",
+    "StandingGains",
+    "StandingState",
     "live_mean",
     "live_sensors",
     "spread",

@@ -6,24 +6,22 @@ from itertools import combinations
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from fddbench.blocks.block import NO_DRAWS, NOTHING
 from fddbench.blocks.drawn import Draws
 from fddbench.blocks.functions import exp
-from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, record
-from fddbench.blocks.linear import largest, total
-from fddbench.detection.confirmation import samples
-from fddbench.detection.isolation import latch
+from fddbench.blocks.layout import Layout, Nothing, Row, Rows, record
+from fddbench.blocks.linear import largest
+from fddbench.detection.decision.standing import Standing, StandingGains, StandingState
 from fddbench.interfaces import Bus
 
 __all__ = ["Nearest", "NearestGains"]
 
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
-NonNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
 
 
-class NearestGains(BaseModel):
+class NearestGains(StandingGains):
     """Numbers of the decision.
 
     Attributes
@@ -34,29 +32,20 @@ class NearestGains(BaseModel):
         Lag on their distances [s].
     clear_ratio : float
         The sensor that is believed must be nearer to the model than this share of the distance of each accused one [-].
-    confirm_one_s, confirm_two_s : float
-        How long the same single sensor, the same several ones, must stand accused [s].
     """
 
     THRESHOLDS: ClassVar[Mapping[str, str]] = {"gate_deg_s": "up"}
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
     gate_deg_s: Positive
     gate_lag_s: Positive
     clear_ratio: Annotated[float, Field(gt=0.0, le=1.0)]
-    confirm_one_s: NonNegative
-    confirm_two_s: NonNegative
 
 
 @record
 class NearestState:
-    """Distances of all pairs of sensors [deg/s]; who stands accused and for how long; who is declared."""
+    """Distances of all pairs of sensors [deg/s]; who stands accused or is declared."""
 
     apart_deg_s: Rows
-    accused: Rows
-    held_samples: Row
-    n_declared: Row
-    declared: Rows
+    standing: StandingState
 
 
 @record
@@ -85,29 +74,23 @@ class Nearest:
     gate_deg_s: float
     share: float
     clear_ratio: float
-    confirm_one: float
-    confirm_two: float
+    standing: Standing
 
     @classmethod
     def of(cls, gains: NearestGains, bus: Bus, n_sensors: int) -> "Nearest":
         """Decision on the clock of a bus."""
-        n_pairs = n_sensors * (n_sensors - 1) // 2
-        shape = NearestState(
-            apart_deg_s=n_pairs, accused=n_sensors, held_samples=ROW, n_declared=ROW, declared=n_sensors
-        )
+        standing, n_pairs = Standing.of(gains, bus, n_sensors), n_sensors * (n_sensors - 1) // 2
         return cls(
-            states=Layout(shape),
+            states=Layout(NearestState(apart_deg_s=n_pairs, standing=standing.states.shape)),
             gate_deg_s=gains.gate_deg_s,
             share=float(1.0 - exp(np.array(-bus.sample_s / gains.gate_lag_s))),
             clear_ratio=gains.clear_ratio,
-            confirm_one=samples("confirm_one_s", gains.confirm_one_s, bus.sample_s),
-            confirm_two=samples("confirm_two_s", gains.confirm_two_s, bus.sample_s),
+            standing=standing,
         )
 
     def start(self, c: Nothing) -> NearestState:
         """All sensors agree, nobody accused."""
-        del c
-        return NearestState(apart_deg_s=0.0, accused=0.0, held_samples=0.0, n_declared=0.0, declared=0.0)
+        return NearestState(apart_deg_s=0.0, standing=self.standing.start(c))
 
     def apart(self, x: NearestState, r_deg_s: Rows) -> tuple[Rows, Row]:
         """Lagged distances of all pairs [deg/s], and whether any sensors differ, now or lagged: 1 or 0."""
@@ -127,21 +110,12 @@ class Nearest:
         distance : (n_sensors, n_cases) rows
             How far each sensor is from what the model says, in any unit, not negative.
         """
-        del c, n
         apart, differ = self.apart(x, r_deg_s)
         accused = np.where(_from_nearest(apart, distance) > self.gate_deg_s, 1.0, 0.0)
-        n_accused = total(accused)
-        best = -largest(-distance)
         least = -largest(np.where(accused > 0.0, -distance, -1e300))
-        changed = total(np.abs(accused - x.accused))
-        # those declared once stay so: an accusation that lets one go is none
-        acquitted = total(x.declared * (1.0 - accused))
-        flag = (n_accused > 0.0) & (acquitted < 1.0) & (best <= self.clear_ratio * least)
-        held = np.where(flag, np.where(changed > 0.0, 1.0, x.held_samples + 1.0), 0.0)
-        ready = held - 1.0 >= np.where(n_accused >= 2.0, self.confirm_two, self.confirm_one)
-        n_now = np.maximum(x.n_declared, np.where(ready & flag, n_accused, 0.0))
-        declared = latch(x.declared, accused, n_before=x.n_declared, n_now=n_now)
-        after = NearestState(apart_deg_s=apart, accused=accused, held_samples=held, n_declared=n_now, declared=declared)
+        clear = -largest(-distance) <= self.clear_ratio * least
+        standing, declared = self.standing.step(x.standing, c, n, accused, clear)
+        after = NearestState(apart_deg_s=apart, standing=standing)
         return after, Decision(declared=declared, differ=differ, residual=largest(apart) / self.gate_deg_s)
 
 

@@ -21,7 +21,10 @@ def require_channels(entries: Sequence[ChannelEntry], bus: Bus, what: str) -> No
     what : str
         Key that they stand under, for messages.
     """
-    bus.require(*dict.fromkeys(entry.signal for entry in entries if entry.signal is not None))
+    bus.require(*dict.fromkeys(name for entry in entries for name in (entry.signal, entry.times) if name is not None))
+    several = [entry.times for entry in entries if entry.times is not None and bus.signals[entry.times]]
+    if several:
+        raise DesignError(f"{what}: times: {several[0]} has {bus.signals[several[0]]} rows; give a signal of one row")
     for number, entry in enumerate(entries):
         if entry.signal is None:
             continue
@@ -42,4 +45,5 @@ def _row(entry: ChannelEntry, measured: SimpleNamespace, like: Row) -> Row:
     signal = vars(measured)[entry.signal]
     value = signal if entry.row is None else signal[entry.row]
     value = value - entry.offset if entry.offset else value
-    return value * entry.scale if entry.scale != 1.0 else value * 1.0
+    value = value * entry.scale if entry.scale != 1.0 else value * 1.0
+    return value if entry.times is None else value * vars(measured)[entry.times]

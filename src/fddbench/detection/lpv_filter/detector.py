@@ -1,5 +1,6 @@
 """The bank as a detector: a fault is declared where its estimate stays beyond its threshold."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -15,6 +16,7 @@ from fddbench.detection.lpv_filter.course import course
 from fddbench.detection.lpv_filter.fits import require_fit
 from fddbench.detection.lpv_filter.gains import LpvFilterGains
 from fddbench.detection.lpv_filter.residual_filter import ResidualFilter, table_of
+from fddbench.detection.lpv_filter.sensors import SensorsDecision, SensorsState
 from fddbench.detection.lpv_filter.trim_tracker import TrimState, TrimTracker
 from fddbench.interfaces import Bus, Scheduling, Verdict
 
@@ -34,6 +36,7 @@ class LpvFilterState:
     trim: tuple[TrimState, ...]
     held_samples: Rows
     declared: Rows
+    sensors: tuple[SensorsState, ...]
 
 
 class LpvFilter:
@@ -45,6 +48,11 @@ class LpvFilter:
     the rates of the outputs that a filter watches, and with turbulence. Knobs: the decay of the design trades delay for noise,
     the thresholds (``fddbench tune``) false alarms for misses, `trim` slow offsets for slow faults. Cost: a few hundred
     products a sample for two filters of one state with nine parameters.
+
+    **Sensors.** A filter may speak for a sensor (`output` of its entry): it follows the faulty reading, so its estimate is
+    that of a fresh fault and is forgotten with the decay. With `sensors` several of one quantity have a filter each, alike but
+    for the reading that it takes; what the model misses moves all estimates and no difference of readings, and a sensor is
+    declared while it differs from one with a smaller estimate. Faults slower than the decay stay unseen, and common ones.
 
     References
     ----------
@@ -64,8 +72,14 @@ class LpvFilter:
         self.filters = tuple(ResidualFilter(entry, bus.sample_s) for entry in gains.filters)
         self.trackers = () if gains.trim is None else (TrimTracker(gains.trim, bus.sample_s),)
         self.watches = tuple(entry.site for entry in gains.filters)
+        self.readings = tuple(entry.output for entry in gains.filters)
+        self.units = column([entry.unit_per_fault for entry in gains.filters])
         self.thresholds = column(gains.thresholds)
         self.confirm_samples = samples("confirm_s", gains.confirm_s, bus.sample_s)
+        self.sensors = tuple(
+            SensorsDecision(entry, self.thresholds, confirm_s=gains.confirm_s, sample_s=bus.sample_s)
+            for entry in (() if gains.sensors is None else (gains.sensors,))
+        )
         suffix = {site.name: site.unit.suffix for site in bus.sites}
         self.evaluated = tuple(f"estimate_{name}{suffix[name]}" for name in self.watches)
         self.shown_thresholds = tuple(f"threshold_{name}{suffix[name]}" for name in self.watches)
@@ -74,7 +88,9 @@ class LpvFilter:
         self.states = Layout(
             LpvFilterState(
                 w=tuple(each.order for each in self.filters), smoothed=n, y=len(gains.outputs), u=len(gains.inputs) or ROW,
-                rho=n_rho or ROW, begun=ROW, trim=tuple(each.shape for each in self.trackers), held_samples=n, declared=n,
+                rho=n_rho or ROW, begun=ROW, trim=tuple(each.shape for each in self.trackers),
+                held_samples=0 if self.sensors else n, declared=0 if self.sensors else n,
+                sensors=tuple(each.states.shape for each in self.sensors),
             )
         )  # fmt: skip
 
@@ -91,17 +107,16 @@ class LpvFilter:
 
     def start(self, c: Nothing) -> LpvFilterState:
         """Nothing declared; filters begin with the first sample."""
-        del c
         return LpvFilterState(
             w=tuple(0.0 for _ in self.filters), smoothed=0.0, y=0.0, u=0.0, rho=0.0, begun=0.0,
             trim=tuple(each.start() for each in self.trackers), held_samples=0.0, declared=0.0,
+            sensors=tuple(each.start(c) for each in self.sensors),
         )  # fmt: skip
 
     def step(
         self, x: LpvFilterState, c: Nothing, n: Nothing, measured: SimpleNamespace
     ) -> tuple[LpvFilterState, Verdict]:
         """Verdict after one sample."""
-        del c, n
         y, u = rows_of(self.outputs, measured, x.begun), rows_of(self.inputs, measured, x.begun)
         rho = x.rho if self.scheduling is None else self.scheduling.rho(measured)
         w, first = self._moved(x, y, u), x.begun < 0.5
@@ -111,24 +126,26 @@ class LpvFilter:
         for tracker, offset in zip(self.trackers, x.trim, strict=True):
             trim, estimate = tracker.step(offset, estimate)
             trims.append(trim)
-        held = held_samples(x.held_samples, np.abs(estimate) > self.thresholds)
-        declared = np.maximum(x.declared, np.where(held - 1.0 >= self.confirm_samples, 1.0, 0.0))
+        begun = np.ones_like(x.begun)
+        after = replace(x, w=w, smoothed=smoothed, y=y, u=u, rho=rho, begun=begun, trim=tuple(trims))
+        after, declared = self._decided(after, c, n, y, estimate)
         shown = {name: estimate[i] for i, name in enumerate(self.evaluated)}
         for i, name in enumerate(self.shown_thresholds):
             shown[name] = np.zeros_like(estimate[i]) + self.thresholds[i]
-        after = LpvFilterState(
-            w=w,
-            smoothed=smoothed,
-            y=y,
-            u=u,
-            rho=rho,
-            begun=np.ones_like(x.begun),
-            trim=tuple(trims),
-            held_samples=held,
-            declared=declared,
-        )
         residual = largest(np.abs(estimate) / self.thresholds)
         return after, Verdict(declared, residual, signals=shown, estimate=estimate)
+
+    def _decided(
+        self, x: LpvFilterState, c: Nothing, n: Nothing, y: Rows, estimate: Rows
+    ) -> tuple[LpvFilterState, Rows]:
+        """State with the decision, and the declared sites: each by itself, or among sensors."""
+        for own, state in zip(self.sensors, x.sensors, strict=True):
+            readings = np.stack([y[place] for place in self.readings if place is not None]) * self.units
+            sensors, declared = own.step(state, c, n, readings, estimate)
+            return replace(x, sensors=(sensors,)), declared
+        held = held_samples(x.held_samples, np.abs(estimate) > self.thresholds)
+        declared = np.maximum(x.declared, np.where(held - 1.0 >= self.confirm_samples, 1.0, 0.0))
+        return replace(x, held_samples=held, declared=declared), declared
 
     def _moved(self, x: LpvFilterState, y: Rows, u: Rows) -> tuple[Rows, ...]:
         """State of every filter at this sample: from the one before, or from its outputs if it is the first."""

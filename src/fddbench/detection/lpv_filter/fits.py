@@ -39,11 +39,25 @@ def require_fit(gains: LpvFilterGains, bus: Bus, scheduling: Scheduling | None) 
     for name, count in counts.items():
         if count != len(sites):
             raise DesignError(f"{name} has {count} numbers for {len(sites)} filters; give one for each")
+    _require_sensors(gains)
     n_rho = 0 if scheduling is None else len(scheduling.parameters)
     _require_family("bend", gains.bend, (len(gains.outputs), len(gains.outputs)), n_rho)
     for number, entry in enumerate(gains.filters):
         _require_shapes(f"filters[{number}]", entry, len(gains.outputs), len(gains.inputs), n_rho)
         _require_stable(f"filters[{number}]", entry, scheduling, bus.sample_s)
+
+
+def _require_sensors(gains: LpvFilterGains) -> None:
+    """Outputs of sensors exist and are seen by their filters; a decision among sensors has two and only such."""
+    for number, entry in enumerate(gains.filters):
+        if entry.output is not None and entry.output >= len(gains.outputs):
+            raise DesignError(
+                f"filters[{number}].output: {entry.output}, there are outputs 0 to {len(gains.outputs) - 1}"
+            )
+        if entry.output is not None and not any(row[entry.output] for row in entry.H if len(row) > entry.output):
+            raise DesignError(f"filters[{number}].output: H does not see output {entry.output}; its column is zero")
+    if gains.sensors is not None and (len(gains.filters) < 2 or any(entry.output is None for entry in gains.filters)):
+        raise DesignError("sensors: needs two filters or more, each with the output of its sensor")
 
 
 def _require_shapes(where: str, entry: FilterEntry, n_y: int, n_u: int, n_rho: int) -> None:

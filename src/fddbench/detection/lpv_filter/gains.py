@@ -4,7 +4,7 @@ from typing import Annotated, ClassVar, Self
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 
-__all__ = ["ChannelEntry", "FilterEntry", "LpvFilterGains", "NonZero", "TrimEntry"]
+__all__ = ["ChannelEntry", "FilterEntry", "LpvFilterGains", "NonZero", "SensorsEntry", "TrimEntry"]
 
 
 def _not_zero(value: float) -> float:
@@ -26,7 +26,7 @@ class _Strict(BaseModel):
 
 
 class ChannelEntry(_Strict):
-    """A number that the filters take, ``scale (signal - offset)``, or a constant.
+    """A number that the filters take, ``scale (signal - offset)``, perhaps times another signal, or a constant.
 
     Attributes
     ----------
@@ -40,6 +40,8 @@ class ChannelEntry(_Strict):
         Which row of a signal that has several, from 0.
     held : bool
         Whether the plant holds this input from sample to sample; others go along a straight line.
+    times : str
+        Signal of one row that it is multiplied by.
     """
 
     signal: str | None = None
@@ -48,6 +50,7 @@ class ChannelEntry(_Strict):
     offset: Number = 0.0
     row: Annotated[int, Field(ge=0)] | None = None
     held: bool = False
+    times: str | None = None
 
     @model_validator(mode="after")
     def _one_of_both(self) -> Self:
@@ -78,6 +81,9 @@ class FilterEntry(_Strict):
         estimate is blown up outside.
     smooth_s : float
         Time constant of a lag on the estimate [s]; 0: none. Noise of an output goes straight into it otherwise.
+    output : int or None
+        Output, from 0, on which the fault sits: a sensor. Its estimate is that of a fresh fault, ``-h' r / h' h`` with the
+        column h of H, and decays as the filter follows the faulty reading.
     """
 
     site: str
@@ -91,6 +97,22 @@ class FilterEntry(_Strict):
     unit_per_fault: Number = 1.0
     least_gain: Positive
     smooth_s: NonNegative = 0.0
+    output: Annotated[int, Field(ge=0)] | None = None
+
+
+class SensorsEntry(_Strict):
+    """Decision among sensors that measure one quantity, each with a filter of its own.
+
+    Attributes
+    ----------
+    differ : float
+        Root mean square difference of two sensors that is none, in the unit of the sites.
+    mean_s : float
+        Time constant of the mean squares of differences and estimates [s].
+    """
+
+    differ: Positive
+    mean_s: Positive
 
 
 class TrimEntry(_Strict):
@@ -129,6 +151,9 @@ class LpvFilterGains(_Strict):
         How long an estimate must stay beyond its threshold [s].
     trim : TrimEntry or None
         Takes slow offsets out; None: estimates as they are.
+    sensors : SensorsEntry or None
+        The sites are redundant sensors: one is suspected only while it differs from one with a smaller estimate. None: each
+        fault by itself.
     """
 
     MEMBERS: ClassVar = {"scheduling": "scheduling"}
@@ -142,3 +167,4 @@ class LpvFilterGains(_Strict):
     thresholds: Annotated[tuple[Positive, ...], Field(min_length=1)]
     confirm_s: NonNegative
     trim: TrimEntry | None = None
+    sensors: SensorsEntry | None = None

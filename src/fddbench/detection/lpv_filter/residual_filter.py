@@ -17,6 +17,8 @@ __all__ = ["ResidualFilter", "table_of"]
 class ResidualFilter:
     """``w' = N(rho) w - G(rho) y + F(rho) u, r = M w - H y``, and the fault ``v = g' r / g' g`` with ``g = M N^-1 PL``.
 
+    Of a sensor g is the column of -H of its output: what a fault that has just begun leaves.
+
     Parameters
     ----------
     entry : FilterEntry
@@ -27,6 +29,7 @@ class ResidualFilter:
     def __init__(self, entry: FilterEntry, sample_s: float) -> None:
         self.N, self.G, self.F, self.PL = (table_of(family) for family in (entry.N, entry.G, entry.F, entry.PL))
         self.M, self.H, self.first = column(entry.M), column(entry.H), column(entry.start)
+        self.fresh = None if entry.output is None else self.H[:, entry.output]
         self.unit, self.least = entry.unit_per_fault, entry.least_gain * entry.least_gain
         self.share = float(1.0 - exp(np.array(-sample_s / entry.smooth_s))) if entry.smooth_s else 1.0
         self.order, self.varies = self.N.shape[1], len(self.N) > 1
@@ -50,8 +53,11 @@ class ResidualFilter:
         return fault if self.share == 1.0 else np.where(first, fault, before + self.share * (fault - before))
 
     def fault(self, w: Rows, y: Rows, rho: Rows) -> Row:
-        """Size of the fault, (n_cases,) in the unit of its site, that leaves this residual when it is steady."""
-        residual, PL = product(self.M, w) - product(self.H, y), affine(self.PL, rho)[:, 0]
+        """Size of the fault, (n_cases,) in the unit of its site, that leaves this residual: steady, or on a sensor at once."""
+        residual = product(self.M, w) - product(self.H, y)
+        if self.fresh is not None:
+            return -self.unit * total(self.fresh * residual) / total(self.fresh * self.fresh)
+        PL = affine(self.PL, rho)[:, 0]
         g = product(self.shown, solve(affine(self.N, rho), PL) if self.varies else PL)
         return self.unit * total(g * residual) / np.maximum(total(g * g), self.least)
 

@@ -141,7 +141,7 @@ class YawRateBest:
         del c, n
         r_deg_s = measured.r_deg_s
         difference, ratio, differ, gathering = self.difference.step(
-            x.difference, x.witnesses.begun, r_deg_s, measured.p_deg_s
+            x.difference, x.witnesses.begun, r_deg_s, measured.p_deg_s, x.declared
         )
         witnesses, innovations = self.witnesses.step(
             x.witnesses, self.model.drives(measured), r_deg_s, measured.beta_deg

@@ -3,10 +3,13 @@
 import numpy as np
 
 from fddbench.blocks.layout import ROW, Layout, Row, Rows, record
-from fddbench.blocks.linear import largest, total
+from fddbench.blocks.linear import largest
 from fddbench.detection.yaw_rate_best.gains import YawRateBestGains
 
 __all__ = ["Difference", "DifferenceState", "smallest"]
+
+_OUT = 1e6
+"""Takes a declared sensor out of the comparison [deg/s]."""
 
 
 @record
@@ -34,7 +37,7 @@ class Difference:
         return DifferenceState(offset=0.0, apart=0.0, agreed_samples=self.rest_samples)
 
     def step(
-        self, x: DifferenceState, begun: Row, r_deg_s: Rows, p_deg_s: Row
+        self, x: DifferenceState, begun: Row, r_deg_s: Rows, p_deg_s: Row, declared: Rows
     ) -> tuple[DifferenceState, Row, Row, Row]:
         """State at the next sample; the distance over its limit [-]; whether it is beyond, and whether it lately was."""
         g = self.gains
@@ -42,9 +45,10 @@ class Difference:
         # the first sample shows offsets as well as any
         offset = np.where(begun > 0.0, x.offset, _limited(off, g.offset_deg_s))
         beyond = off - offset
-        apart = x.apart + self.smooth * (_limited(beyond, 3.0) - x.apart)
+        apart = x.apart + self.smooth * (beyond - x.apart)
         limit = g.differ_deg_s + g.differ_per_roll * np.abs(p_deg_s)
-        ratio = (largest(apart) - smallest(apart)) / limit
+        # those that are declared are no longer compared
+        ratio = (largest(apart - _OUT * declared) - smallest(apart + _OUT * declared)) / limit
         differ = ratio > 1.0
         agreed = np.where(differ, 0.0, x.agreed_samples + 1.0)
         gathering = agreed < self.rest_samples
@@ -60,8 +64,3 @@ def smallest(rows: Rows) -> Row:
 
 def _limited(rows: Rows, most: float) -> Rows:
     return np.minimum(np.maximum(rows, -most), most)
-
-
-def mean(rows: Rows) -> Row:
-    """Mean of the rows, (n_cases,)."""
-    return total(rows) / float(len(rows))

@@ -16,7 +16,7 @@ from fddbench.benchmarks.yaw_rate.unit_sites import P_UNITS, PHI_UNITS
 from fddbench.benchmarks.yaw_rate.voters import Voted, Voters
 from fddbench.blocks.block import Part
 from fddbench.blocks.drawn import Draws
-from fddbench.blocks.layout import ROW, Layout, Nothing, Row, record
+from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, record
 from fddbench.flight.actuators import Actuators, ActuatorState
 from fddbench.flight.atmosphere import FT_M
 from fddbench.flight.transport.engines import spooled
@@ -77,9 +77,10 @@ class TransportLoop:
 
     The bus holds what the lateral model has there, under the same names, and besides incidence and load factor, three of
     each and the voted ones, pitch angle and rate, both elevators, the stabiliser and the share of the thrust. Airspeeds, mass,
-    X_cg and altitude carry their measurement errors.
+    X_cg and altitude carry their measurement errors. Sensors that are declared leave their vote.
     """
 
+    reconfigures = True
     truth = TRUTH
 
     def __init__(self, plant: TransportPlant, options: Options) -> None:
@@ -91,7 +92,8 @@ class TransportLoop:
         rates = self.breaking.n_sites("r_deg_s")
         self.sensors = TransportSensors(chosen["sensors"], rates, options.sample_s)
         of_units = (P_UNITS, PHI_UNITS) if self.sensors.n_units else ()
-        self.voters = Voters(chosen["voter"], ("r_deg_s", "alpha_deg", "n_z_g", *of_units))
+        voted = {"r_deg_s": rates, "alpha_deg": N_VOTED, "n_z_g": N_VOTED, **dict.fromkeys(of_units, rates)}
+        self.voters = Voters(chosen["voter"], voted, plant.sites, options.sample_s)
         self.law = TransportLaw(plant.aircraft, plant.gains, options.sample_s)
         actuators = plant.aircraft.actuators
         self.actuators = Actuators(
@@ -154,7 +156,9 @@ class TransportLoop:
             faults=self.breaking.start(c.faults),
         )
 
-    def step(self, x: LoopState, c: LoopConstants, n: LoopDraws, sample: Row) -> tuple[LoopState, Sample]:
+    def step(
+        self, x: LoopState, c: LoopConstants, n: LoopDraws, sample: Row, declared: Rows = None
+    ) -> tuple[LoopState, Sample]:
         """One sample, see `fddbench.interfaces.Loop.step`."""
         positions = x.actuators.position_deg
         wind, air = self.wind.step(x.wind, c.wind, n.wind, sample, like=x.thrust_ratio)
@@ -170,7 +174,7 @@ class TransportLoop:
             P_UNITS: readings.p_deg_s, PHI_UNITS: readings.phi_deg,
         }  # fmt: skip
         s |= {name: breaking.broken(name, healthy[name]) for name in self.voters.parts}
-        kept, voted = self.voters.step(x.voters, s)
+        kept, voted = self.voters.step(x.voters, s, declared)
         seen = measured(c.plant, motion, readings, s, voted, x.thrust_ratio)
         law, orders = self.law.step(x.law, c.plant.law, Nothing(), sensed(seen, motion, c.plant), sample)
         after = LoopState(
