@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from fddbench.api.bounds import bounds
     from fddbench.api.campaigns import plan, read, run
     from fddbench.api.comparing import compare
+    from fddbench.api.curves import operating_curve
     from fddbench.api.designs import tune
     from fddbench.api.detection_curves import pod
     from fddbench.api.findings import finding
@@ -34,6 +35,7 @@ __all__ = [
     "finding",
     "load",
     "load_events",
+    "operating_curve",
     "plan",
     "pod",
     "read",
@@ -65,6 +67,7 @@ _ROOMS = {
     "report": "pages",
     "table_of": "replaying",
     "tradeoff": "tradeoffs",
+    "operating_curve": "curves",
     "tune": "designs",
     "verify": "verifying",
     "worst": "worst",

@@ -191,7 +191,8 @@ def _design(variants: Sequence[Design]) -> Iterator[str]:
     """A design, and what of it is swept."""
     design = variants[0]
     seen = ", ".join(f"{entry.campaign} seed {entry.seed}" for entry in design.tuned_on) or "no campaign"
-    text = f"{design.base} ({design.kind.name}): {' '.join(design.source.split()).rstrip('.')}; tuned on {seen}"
+    every = f", a step every {design.every} samples" if design.every > 1 else ""
+    text = f"{design.base} ({design.kind.name}{every}): {' '.join(design.source.split()).rstrip('.')}; tuned on {seen}"
     yield fill(text, _WIDTH, initial_indent="  ", subsequent_indent="    ")
     gains = [each.swept for each in variants if each.swept]
     for column in dict.fromkeys(gain.column for gain in gains):
