@@ -71,6 +71,6 @@ class JetEngine(SinglePlant):
         """Why no bound is stated: known engines leave the ideal test nothing to doubt."""
         del chosen, parameters, sample_s
         return (
-            "no sensor noise, and disturbances that are held for 0.1 s: with Δ known two samples betray any fault, if only by 1e-8 "
+            "no sensor noise, and disturbances held for 0.1 s: with Δ known two samples betray any fault, if only by 1e-8 "
             "of it, so a bound would say 100 % and nothing of what limits detectors"
         )
