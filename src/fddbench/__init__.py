@@ -17,9 +17,11 @@ if TYPE_CHECKING:
     from fddbench.api.findings import finding
     from fddbench.api.flights import score, signals
     from fddbench.api.pages import report
+    from fddbench.api.pictures import reconstruction_picture, tradeoff_picture
     from fddbench.api.replaying import table_of
     from fddbench.api.summaries import summary
     from fddbench.api.tables import alarms, columns, detectable, load, load_events
+    from fddbench.api.tradeoffs import tradeoff
     from fddbench.api.verifying import verify
     from fddbench.api.worst import worst
 
@@ -37,12 +39,15 @@ __all__ = [
     "plan",
     "pod",
     "read",
+    "reconstruction_picture",
     "report",
     "run",
     "score",
     "signals",
     "summary",
     "table_of",
+    "tradeoff",
+    "tradeoff_picture",
     "tune",
     "verify",
     "worst",
@@ -53,6 +58,7 @@ _ROOMS = {
     **dict.fromkeys(("plan", "read", "run"), "campaigns"),
     **dict.fromkeys(("alarms", "columns", "detectable", "load", "load_events"), "tables"),
     **dict.fromkeys(("score", "signals"), "flights"),
+    **dict.fromkeys(("reconstruction_picture", "tradeoff_picture"), "pictures"),
     "compare": "comparing",
     "bounds": "bounds",
     "finding": "findings",
@@ -60,6 +66,7 @@ _ROOMS = {
     "summary": "summaries",
     "report": "pages",
     "table_of": "replaying",
+    "tradeoff": "tradeoffs",
     "operating_curve": "curves",
     "tune": "designs",
     "verify": "verifying",

@@ -26,7 +26,7 @@ def test_shards_without_a_provenance_are_not_deleted(out, tmp_path, fresh, liste
         return
     cure = "with --fresh" if listed else "remove the folder yourself"
     with pytest.raises(
-        ResultsError, match=f"holds 9 shards and a provenance.json that is missing.*Nothing was.*{cure}"
+        ResultsError, match=f"holds 12 shards and a provenance.json that is missing.*Nothing was.*{cure}"
     ):
         fly(other, out, fresh=fresh)
     assert everything(out) == before

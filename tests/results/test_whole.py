@@ -12,7 +12,7 @@ from fddbench.errors import PartialResultsWarning
 from fddbench.results import table
 from fddbench.results.whole import holdings
 
-SAID = "4 of 12 flights: healthy 4 of 6, jam 0 of 6"
+SAID = "4 of 12 flights: healthy 2 of 6, jam 2 of 6"
 
 
 @pytest.fixture

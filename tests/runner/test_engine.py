@@ -86,7 +86,7 @@ def test_the_interpreter_is_what_plain_numpy_gives(chunk, interpreted):
     short = assembly.scoring.constants.unpack(rows := batch.score_constants.copy())
     short.last[...] = np.minimum(short.last, 249.0)
     object.__setattr__(batch, "score_constants", rows)
-    scores, departed, _, _ = fly_eagerly(assembly, batch)
+    scores, departed, *_ = fly_eagerly(assembly, batch)
     x = fused.states.unpack(interpreted)
     np.testing.assert_array_equal(x.departed, departed)
     for i, name in enumerate(fused.detectors):
@@ -145,7 +145,7 @@ def test_a_detector_that_cannot_be_compiled_flies_to_the_same_rows(tmp_path):
     flyer = Flyer(assembly)
     batch = assembly.batch(np.arange(0, 32, 2))
     found = flyer.fly(batch, ["sliding_mode_published:residual", "voting_monitor:residual"])
-    scores, departed, _, tape = fly_eagerly(
+    scores, departed, _, tape, _ = fly_eagerly(
         assembly, batch, ["sliding_mode_published:residual", "voting_monitor:residual"]
     )
     if llvm.available():

@@ -88,6 +88,7 @@ def report_data(folder: Path) -> ReportData:
         partial=found.sentence if found.partial else "",
         detectable=detectable_of(rows, campaign),
         bounds=bounds_of(campaign),
+        consequences=assembly.consequences.announced,
     )
 
 

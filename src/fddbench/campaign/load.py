@@ -51,7 +51,8 @@ def read_campaign(path: Path, overrides: Sequence[str] = ()) -> Campaign:
     faults.files |= table_files
     mistakes += [*faults.mistakes, *(wrong_table if ground.plant else [])]
     if ground.benchmark is not None and ground.plant is not None:
-        mistakes += unknown_names(document, ground.benchmark, ground.plant)
+        members = ground.chosen.members if ground.chosen else {}
+        mistakes += unknown_names(document, ground.benchmark, ground.plant, members)
         if written is not None and not mistakes:
             mistakes += inconsistencies(document, written, faults.lists, ground.benchmark, ground.plant)
     if written is not None:

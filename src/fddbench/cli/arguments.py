@@ -26,7 +26,10 @@ def parser() -> argparse.ArgumentParser:
     subs = top.add_subparsers(metavar="COMMAND")
 
     run = _add(subs, "run", commands.run)
-    _campaign(run)
+    run.add_argument(
+        "campaigns", type=Path, nargs="+", metavar="CAMPAIGN.yaml", help="campaign files, or names of shipped ones"
+    )
+    _set(run)
     run.add_argument(
         "--out", type=Path, metavar="DIR", help="folder of results (default: results/<name of the campaign>)"
     )
@@ -185,6 +188,10 @@ def _campaign(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "campaign", type=Path, metavar="CAMPAIGN.yaml", help="campaign file, or the name of a shipped one"
     )
+    _set(command)
+
+
+def _set(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--set", action="append", default=[], metavar="PATH=VALUE", dest="overrides",
         help="change a value of the campaign, e.g. dispersions.monte_carlo.runs=10 (may be repeated)",

@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from fddbench.blocks.block import NO_DRAWS, NOTHING
 from fddbench.blocks.drawn import Draws
-from fddbench.blocks.layout import Layout, Nothing, Row, Rows, record
+from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, record
 from fddbench.detection.lpv_filter.channels import require_channels, rows_of
 from fddbench.detection.lpv_filter.gains import ChannelEntry, SensorsEntry
 from fddbench.detection.lpv_filter.sensors import SensorsDecision, SensorsState
@@ -50,6 +50,9 @@ class HinfFilterGains(BaseModel):
         What y and u are on the bus; None: its signals y and u.
     sites : names or None
         Site of each residual; None: all of the kind of the first.
+    about_first : bool
+        Whether y and u are taken as deviations from the first sample: a linear filter about the trim that a flight begins in.
+        A fault that is there already belongs to that trim.
     sensors : SensorsEntry or None
         Output i and residual i are of redundant sensor i: one is suspected only while it differs from one with a smaller
         residual. None: each residual by itself.
@@ -71,16 +74,26 @@ class HinfFilterGains(BaseModel):
     outputs: Annotated[tuple[ChannelEntry, ...], Field(min_length=1)] | None = None
     inputs: tuple[ChannelEntry, ...] | None = None
     sites: Annotated[tuple[str, ...], Field(min_length=1)] | None = None
+    about_first: bool = False
     sensors: SensorsEntry | None = None
 
 
 @record
+class Trim:
+    """Outputs and inputs of the first sample, and 1 once there has been one."""
+
+    first: Rows
+    begun: Row
+
+
+@record
 class FilterState:
-    """State of the filter; of the decision on its residuals."""
+    """State of the filter; of the decision on its residuals; of that among sensors; the trim where it is taken off."""
 
     filter: Rows
     test: MeanTestState
     sensors: tuple[SensorsState, ...]
+    trim: tuple[Trim, ...]
 
 
 class HinfFilter:
@@ -127,7 +140,10 @@ class HinfFilter:
         self.estimates = "sites" if gains.estimates_faults else None
         self.evaluated, self.recorded = self.test.evaluated, self.test.recorded
         kept = tuple(each.states.shape for each in self.sensors)
-        self.states = Layout(FilterState(filter=len(g["A"]), test=self.test.states.shape, sensors=kept))
+        signals = g["B_y"].shape[1] + g["B_u"].shape[1]
+        trim = (Trim(first=signals, begun=ROW),) if gains.about_first else ()
+        self.states = Layout(FilterState(filter=len(g["A"]), test=self.test.states.shape, sensors=kept, trim=trim))
+        self.about_first = gains.about_first
 
     @classmethod
     def from_design(cls, gains: HinfFilterGains, bus: Bus) -> "HinfFilter":
@@ -150,14 +166,20 @@ class HinfFilter:
     def start(self, c: Nothing) -> FilterState:
         """Nothing declared, filter at rest."""
         kept = tuple(each.start(c) for each in self.sensors)
-        return FilterState(filter=0.0, test=self.test.start(c), sensors=kept)
+        trim = (Trim(first=0.0, begun=0.0),) if self.about_first else ()
+        return FilterState(filter=0.0, test=self.test.start(c), sensors=kept, trim=trim)
 
     def step(self, x: FilterState, c: Nothing, n: Nothing, measured: SimpleNamespace) -> tuple[FilterState, Verdict]:
         """Verdict after one sample."""
         y, u = self._seen(measured, x.test.window[0])
-        filtered, residual = self.filter.step(x.filter, np.concatenate([y, u]))
+        seen, kept = np.concatenate([y, u]), []
+        for trim in x.trim:
+            first = np.where(trim.begun > 0.5, trim.first, seen)
+            kept.append(Trim(first=first, begun=np.ones_like(trim.begun)))
+            seen = seen - first
+        filtered, residual = self.filter.step(x.filter, seen)
         test, verdict = self.test.step(x.test, c, n, residual)
-        after = replace(x, filter=filtered, test=test)
+        after = replace(x, filter=filtered, test=test, trim=tuple(kept))
         for own, state in zip(self.sensors, x.sensors, strict=True):
             means = np.stack([verdict.signals[name] for name in self.evaluated])
             sensors, declared = own.step(state, c, n, y, means)

@@ -16,6 +16,7 @@ from fddbench.interfaces.benchmark import (
     SinglePlant,
 )
 from fddbench.interfaces.bus import Bus
+from fddbench.interfaces.consequence import Consequence
 from fddbench.interfaces.detector import Detector, Tunable, Verdict, Voter
 from fddbench.interfaces.fault import Fault, FaultBlock, Instant
 from fddbench.interfaces.floats import NEVER, Floats
@@ -34,6 +35,7 @@ __all__ = [
     "Bus",
     "Channel",
     "Choice",
+    "Consequence",
     "Detectability",
     "Detector",
     "Fault",

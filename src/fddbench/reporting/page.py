@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from fddbench.interfaces import Bands, Recording, Response
+from fddbench.interfaces import Bands, Consequence, Recording, Response
 from fddbench.metrics.alarms import summarize_alarms
 from fddbench.metrics.bound import breaches, with_bounds
 from fddbench.metrics.summary import summarize
@@ -16,6 +16,7 @@ from fddbench.reporting import detectability, failures, figures, headlines, infe
 from fddbench.reporting.bands import band_pictures
 from fddbench.reporting.beside import beside
 from fddbench.reporting.bounds import HEADS, bound_lines
+from fddbench.reporting.consequences import consequence_heads, consequence_lines
 from fddbench.reporting.guarantees import guarantee_lines
 from fddbench.reporting.published import Iterations, Published
 from fddbench.reporting.reasons import REASONS
@@ -58,6 +59,8 @@ class ReportData:
         How many flights of how many the folder holds, "" when all.
     detectable : DataFrame or None
         Maps of detectability, lines of `fddbench.metrics.detectable.DETECTABLE`.
+    consequences : sequence of Consequence
+        What the loop says of what faults do to the aircraft.
     bounds : DataFrame or None
         What the ideal test finds, lines of `fddbench.metrics.bound.BOUNDS`.
     bands : sequence of Bands
@@ -85,6 +88,7 @@ class ReportData:
     partial: str = ""
     detectable: pd.DataFrame | None = None
     bounds: pd.DataFrame | None = None
+    consequences: Sequence[Consequence] = ()
     bands: Sequence[Bands] = ()
     responses: Sequence[Response] = ()
     shown: Sequence[str] = ()
@@ -137,6 +141,8 @@ def _content(report: ReportData) -> dict[str, Any]:
         "iterations": report.iterations,
         "limits_from": report.limits_from,
         **_bounds(summary, report.bounds),
+        "consequence_heads": consequence_heads(report.consequences),
+        "consequences": consequence_lines(rows, report.consequences),
         "compared": compared,
         "curves": figures.detection_curves(rows),
         "pictures": [p for r in report.recordings if r.cases for p in [_picture(r, rows)] if p["png"] is not None],

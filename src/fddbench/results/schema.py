@@ -4,6 +4,9 @@ from collections.abc import Sequence
 
 import pyarrow as pa
 
+from fddbench.interfaces import Consequence
+from fddbench.units import unit_of_name
+
 __all__ = ["CASE", "EVENTS", "OUTCOMES", "SCHEMA_VERSION", "STATUSES", "rows_schema"]
 
 SCHEMA_VERSION = "2"
@@ -93,8 +96,13 @@ EVENTS = pa.schema(
 )
 
 
-def rows_schema(parameters: Sequence[str], varied: Sequence[str] = (), gains: Sequence[str] = ()) -> pa.Schema:
-    """Schema of the rows of a benchmark with these parameters (columns ``p_<name>``).
+def rows_schema(
+    parameters: Sequence[str],
+    varied: Sequence[str] = (),
+    gains: Sequence[str] = (),
+    consequences: Sequence[Consequence] = (),
+) -> pa.Schema:
+    """Schema of the rows of a benchmark with these parameters (columns ``p_<name>``) and consequences of faults.
 
     `varied` are the columns of what differs between the faults of flights, ``f1_amplitude_percent``; `gains` those of gains of
     detectors that are swept, ``gain_threshold_deg_s``, and of factors on gains, ``factor_thresholds``.
@@ -102,7 +110,23 @@ def rows_schema(parameters: Sequence[str], varied: Sequence[str] = (), gains: Se
     faults = [_column(name, pa.float64(), _of_fault(name)) for name in varied]
     own = [_column(f"p_{name}", pa.float64(), "true value of the parameter", nullable=False) for name in parameters]
     swept = [_column(name, pa.float64(), _of_gain(name)) for name in gains]
-    return pa.schema([*_WHO, *_SCORES, *swept, *faults, *own], metadata={"fddbench_schema": SCHEMA_VERSION})
+    lasting = [field for each in consequences for field in _of_consequence(each)]
+    return pa.schema([*_WHO, *_SCORES, *lasting, *swept, *faults, *own], metadata={"fddbench_schema": SCHEMA_VERSION})
+
+
+def _of_consequence(each: Consequence) -> list[pa.Field]:
+    unit = f"[{unit_of_name(each.name) or '-'}]"
+    twin = "the healthy twin, the flight of the same point, run and manoeuvre without faults and detectors"
+    none = "null: healthy flight, or no twin"
+    if each.how == "error":
+        about = f"{each.about} at the last scored sample minus that of {twin} {unit}; {none}"
+    elif each.how == "rise":
+        about = f"mean {each.about} from the onset on over that of {twin}, minus one {unit}; {none}"
+    else:
+        about = f"largest absolute {each.about} from the onset on {unit}; of a healthy flight from its start"
+        same = _column(f"healthy_{each.name}", pa.float64(), f"the same of {twin}; {none}")
+        return [_column(each.name, pa.float64(), about), same]
+    return [_column(each.name, pa.float64(), about)]
 
 
 def _of_gain(column: str) -> str:

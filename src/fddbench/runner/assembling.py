@@ -8,6 +8,7 @@ from fddbench.campaign.plan import Plan, plan
 from fddbench.designs.building import build_detectors
 from fddbench.errors import FddbenchError, place_of, reason_of
 from fddbench.interfaces import Loop, Options
+from fddbench.metrics.consequences import Consequences
 from fddbench.metrics.scoring import Scoring
 from fddbench.plugin_files import noticed_reads
 from fddbench.runner.assembly import Assembly
@@ -71,7 +72,8 @@ def assemble(campaign: Campaign) -> Assembly:
     n_faults = max((len(scenario.faults) for scenario in planned.scenarios), default=0)
     units = [site.unit_name for site in loop.bus.sites]
     scoring = Scoring(loop.bus.names, n_faults, campaign.sample_s, units=units)
-    assembly = Assembly(plan=planned, loop=loop, detectors={}, scoring=scoring)
+    consequences = Consequences(getattr(loop, "consequences", ()), loop.truth)
+    assembly = Assembly(plan=planned, loop=loop, detectors={}, scoring=scoring, consequences=consequences)
     faults = [fault for scenario in campaign.scenarios for fault in scenario.faults]
     if any(map(_foreign, (campaign.bench, campaign.plant, loop, *campaign.chosen.values(), *faults))):
         require_sound(assembly)

@@ -1,7 +1,7 @@
 """What flies the cases of a campaign: its closed loop, its detectors, and batches of cases with all their constants."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from fddbench.campaign.plan import Plan, PlannedScenario
 from fddbench.designs.adapted import Adapted
 from fddbench.faults.timing import first_samples
 from fddbench.interfaces import NEVER, Fault, FlightFaults, Flights, Floats, Loop
+from fddbench.metrics.consequences import Consequences
 from fddbench.metrics.score import FaultTimes
 from fddbench.metrics.scoring import Scoring
 from fddbench.runner.faulty import BatchFaults, batch_faults
@@ -99,12 +100,15 @@ class Assembly:
         By the names of their designs.
     scoring : Scoring
         Score of a detector that isolates all sites and estimates nothing; its constants are those of all detectors.
+    consequences : Consequences
+        What is kept of a flight besides, as the loop announces it.
     """
 
     plan: Plan
     loop: Loop
     detectors: Mapping[str, Adapted]
     scoring: Scoring
+    consequences: Consequences = field(default_factory=lambda: Consequences((), ()))
 
     @property
     def commander(self) -> str:
@@ -177,6 +181,11 @@ class Assembly:
         begun = scoring.start(scoring.constants.unpack(batch.score_constants))
         packed: Floats = states.pack(states.spread(begun, n_cases), n_cases)
         return packed
+
+    def last_scored(self, batch: Batch, departed: Floats) -> Floats:
+        """Last scored sample of each flight of a batch, (n_cases,); -1 for none."""
+        last: Floats = np.minimum(self.ends(batch), departed - 1.0)
+        return last
 
     def normals(self, draws: Draws[Any], batch: Batch, first: int, count: int) -> Floats:
         """Normals of samples ``first ... first + count - 1``, (count, n_normals, n_cases), in the order of the draws."""

@@ -26,8 +26,9 @@ OPAQUE_CHUNK = 64
 def cut(plan: Plan, cases: Cases, *, size: int, jobs: int) -> list[Cases]:
     """Chunks of cases, longest flights first so that the workers end together.
 
-    Flights of equal length fly together, since a chunk flies as long as its longest; no chunk holds more than `size`
-    cases, nor more than its share when there are too few for all workers.
+    Flights of equal length fly together, since a chunk flies as long as its longest, and so do those of one manoeuvre, point
+    and run, which share a healthy twin. No chunk holds more than `size` cases, nor more than its share when there are too few
+    for all workers.
     """
     length = plan.n_samples(cases)
     chunks: list[Cases] = []
@@ -35,8 +36,16 @@ def cut(plan: Plan, cases: Cases, *, size: int, jobs: int) -> list[Cases]:
         alike = cases[length == samples]
         n_chunks = max(-(-len(alike) // size), 1)
         n_chunks = min(-(-n_chunks // jobs) * jobs, max(n_chunks, -(-len(alike) // 16)))
-        chunks += [part for part in np.array_split(alike, n_chunks) if len(part)]
+        chunks += [np.sort(part) for part in np.array_split(_twins_together(plan, alike), n_chunks) if len(part)]
     return chunks
+
+
+def _twins_together(plan: Plan, cases: Cases) -> Cases:
+    """Cases in the order of their manoeuvres, points and runs."""
+    at = plan.locate(cases)
+    known = list(dict.fromkeys(scenario.manoeuvre for scenario in plan.scenarios))
+    flown = np.array([known.index(scenario.manoeuvre) for scenario in plan.scenarios], dtype=np.int64)
+    return cases[np.lexsort((cases, at.run, at.point, flown[at.scenario]))]
 
 
 def spans(cases: Cases) -> Spans:

@@ -12,6 +12,7 @@ from fddbench.errors import FddbenchError
 from fddbench.interfaces import Floats, Verdict
 from fddbench.metrics.scoring import SITES, Scoring
 from fddbench.runner.assembly import Assembly, Batch
+from fddbench.runner.beside import beside
 from fddbench.runner.flight import Flyer, Outcome
 from fddbench.runner.work import rows_of
 
@@ -51,7 +52,14 @@ def declared_rows(
         )
     flown = flyer.fly(batch, [truth] if truth else [])
     score = _scored(scoring, batch, given, flown, n_time=time[0])
-    outcome = Outcome(batch=batch, scores={name: score}, departed=flown.departed, scoring={name: scoring})
+    outcome = Outcome(
+        batch=batch,
+        scores={name: score},
+        departed=flown.departed,
+        scoring={name: scoring},
+        consequences=flown.consequences,
+        twins=beside(flyer, batch, flown.departed),
+    )
     return rows_of(assembly, batch, outcome, name)
 
 

@@ -144,13 +144,34 @@ def _names(detector: Adapted) -> tuple[str, ...]:
     return (*(f"declaration of {site}" for site in sites), "alarm", "residual", *estimates, *detector.recorded)
 
 
+class ConsequenceFlight:
+    """What is kept of the flights of a batch themselves, fed with what the loop shows sample by sample."""
+
+    def __init__(self, assembly: Assembly, batch: Batch) -> None:
+        self.consequences, n_cases = assembly.consequences, len(batch.cases)
+        self.constants = assembly.scoring.constants.unpack(batch.score_constants)
+        self.state = self.consequences.states.spread(self.consequences.start(), n_cases)
+
+    def step(self, seen: Sample, sample: float, departed: Floats) -> None:
+        """Take one more sample."""
+        c = self.constants
+        when: dict[str, Any] = {"k0": c.k0, "last": c.last, "sample": sample, "alive": sample < departed}
+        self.state = self.consequences.step(self.state, seen.truth, **when)
+
+    def rows(self) -> Floats:
+        """All that is kept, (n_rows, n_cases)."""
+        packed: Floats = self.consequences.states.pack(self.state, len(self.constants.k0))
+        return packed
+
+
 def fly_eagerly(
     assembly: Assembly, batch: Batch, recorded: Sequence[str] = (), names: Sequence[str] | None = None
-) -> tuple[dict[str, Floats], Floats, dict[str, list[str]], dict[str, Floats]]:
-    """Scores, departures, errors and recordings of a batch; all detectors or those named, no compiler."""
+) -> tuple[dict[str, Floats], Floats, dict[str, list[str]], dict[str, Floats], Floats]:
+    """Scores, departures, errors, recordings and consequences of a batch; all detectors or those named, no compiler."""
     flown = assembly.detectors if names is None else names
     flights = [DetectorFlight(assembly, name, batch, recorded) for name in flown]
-    departed, tape = feed_eagerly(assembly, batch, flights, recorded)
+    lasting = ConsequenceFlight(assembly, batch)
+    departed, tape = feed_eagerly(assembly, batch, flights, recorded, lasting=lasting)
     scores, errors = {}, {}
     for flight in flights:
         scores[flight.name], errors[flight.name] = flight.finish()
@@ -158,7 +179,7 @@ def fly_eagerly(
         tape |= flight.tape()
     if assembly.commander in errors:
         errors = without_commander(assembly.commander, errors)
-    return scores, departed, errors, flown_only(assembly, batch, departed, tape)
+    return scores, departed, errors, flown_only(assembly, batch, departed, tape), lasting.rows()
 
 
 def flown_only(assembly: Assembly, batch: Batch, departed: Floats, tape: Mapping[str, Floats]) -> dict[str, Floats]:
@@ -176,6 +197,7 @@ def feed_eagerly(
     recorded: Sequence[str] = (),
     *,
     until_over: bool = False,
+    lasting: ConsequenceFlight | None = None,
 ) -> tuple[Floats, dict[str, Floats]]:
     """Fly the loop and show it to detectors; departures, and recordings of the loop.
 
@@ -200,6 +222,8 @@ def feed_eagerly(
                 _protect(seen.measured)
                 for flight in flown:
                     flight.step(seen, sample, departed)
+                if lasting is not None:
+                    lasting.step(seen, sample, departed)
                 _keep(kept, seen, departed)
                 if until_over and all(flight.over for flight in flights):
                     return departed, {}

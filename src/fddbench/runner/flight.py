@@ -16,6 +16,7 @@ from fddbench.runner.eager import DetectorFlight, feed_eagerly, flown_only, fly_
 from fddbench.runner.fused import Fused
 from fddbench.runner.given_up import GivenUp
 from fddbench.runner.reconfiguration import without_commander
+from fddbench.runner.twins import healthy_twins
 
 __all__ = ["Flyer", "Outcome"]
 
@@ -41,6 +42,8 @@ class Outcome:
         What was asked for: ``measured:NAME``, ``truth:NAME``, ``voted:NAME``, ``added``, ``DETECTOR:NAME``.
     scoring : dict of str to Scoring
         How what is no detector of the campaign was scored.
+    consequences, twins : (n_rows, n_cases) arrays or None
+        What is kept of the flights themselves and of their healthy twins, by `Assembly.consequences`; None: not known.
     """
 
     batch: Batch
@@ -49,6 +52,8 @@ class Outcome:
     errors: dict[str, list[str]] = field(default_factory=dict)
     recorded: dict[str, Floats] = field(default_factory=dict)
     scoring: dict[str, Scoring] = field(default_factory=dict)
+    consequences: Floats | None = None
+    twins: Floats | None = None
 
 
 class Flyer:
@@ -98,7 +103,33 @@ class Flyer:
     def prepare(self) -> None:
         """Compile what flying without a recording needs, so that threads find it done."""
         if self.compiled:
-            self.kernel(self._needed(()))
+            self.kernel(self.needed(()))
+        if self.twins is not None and self.twins.compiled:
+            self.twins.kernel(self.twins.needed(self.of_twins))
+
+    @cached_property
+    def twins(self) -> "Flyer | None":
+        """What flies the healthy twins of the faulty flights; None where no number of a row needs any."""
+        planned = self.assembly.plan
+        if not self.of_twins or not any(each.faults for each in planned.scenarios):
+            return None
+        return Flyer(healthy_twins(self.assembly), self.backend)
+
+    @property
+    def of_twins(self) -> tuple[str, ...]:
+        """Signals that are recorded of healthy twins."""
+        return tuple(f"truth:{name}" for name in self.assembly.consequences.signals)
+
+    def stretches(self, batch: Batch, recorded: Sequence[str]) -> Iterator[tuple[int, dict[str, Floats], Floats]]:
+        """First sample, recordings and departures so far, stretch after stretch; all at once without a compiler."""
+        if not self.compiled:
+            departed, tape = feed_eagerly(self.assembly, batch, (), recorded)
+            yield 0, tape, departed
+            return
+        first = 0
+        for flown in self._tiles(batch, self.needed(tuple(recorded)), ()):
+            yield first, dict(flown.recorded), self.fused.states.unpack(flown.state).departed
+            first += _TILE
 
     def fly(self, batch: Batch, recorded: Sequence[str] = ()) -> Outcome:
         """Fly all cases of a batch, each to its own end."""
@@ -108,8 +139,10 @@ class Flyer:
             outcome = self._fly_compiled(batch, tuple(recorded))
         else:
             names = [name for name in self.assembly.detectors if name not in self.given_up]
-            scores, departed, errors, tape = fly_eagerly(self.assembly, batch, recorded, names)
-            outcome = Outcome(batch=batch, scores=scores, departed=departed, errors=errors, recorded=tape)
+            scores, departed, errors, tape, lasting = fly_eagerly(self.assembly, batch, recorded, names)
+            outcome = Outcome(
+                batch=batch, scores=scores, departed=departed, errors=errors, recorded=tape, consequences=lasting
+            )
         for name, given in self.given_up.items():
             outcome.scores[name] = self.assembly.nothing_scored(batch, self.assembly.scoring_of[name])
             outcome.errors[name] = [given.reason(case) for case in batch.cases.tolist()]
@@ -127,13 +160,13 @@ class Flyer:
     def feed(self, batch: Batch, flights: Sequence[DetectorFlight]) -> None:
         """Fly a batch and show it to these flights of detectors, until all of them have raised."""
         if self.compiled:
-            for _ in self._tiles(batch, self._needed(()), flights):
+            for _ in self._tiles(batch, self.needed(()), flights):
                 if all(flight.over for flight in flights):
                     return
         else:
             feed_eagerly(self.assembly, batch, flights, until_over=True)
 
-    def _needed(self, recorded: tuple[str, ...]) -> tuple[str, ...]:
+    def needed(self, recorded: tuple[str, ...]) -> tuple[str, ...]:
         """Outputs to store: those asked for, and the measured bus where an opaque detector reads it."""
         own = tuple(name for name in recorded if name.split(":")[0] not in self.opaque)
         bus = tuple(f"measured:{name}" for name in self.assembly.loop.bus.signals) if self.opaque else ()
@@ -148,7 +181,7 @@ class Flyer:
 
     def _fly_compiled(self, batch: Batch, recorded: tuple[str, ...]) -> Outcome:
         assembly, fused = self.assembly, self.fused
-        needed = self._needed(recorded)
+        needed = self.needed(recorded)
         opaque = [DetectorFlight(assembly, name, batch, recorded, alone=False) for name in self.opaque]
         kept: dict[str, list[Floats]] = {name: [] for name in needed if name in recorded}
         for flown in self._tiles(batch, needed, opaque):
@@ -160,6 +193,7 @@ class Flyer:
             scores={name: fused.scoring[i].states.pack(x.scores[i]) for i, name in enumerate(fused.detectors)},
             departed=x.departed,
             recorded={name: np.concatenate(parts) for name, parts in kept.items()},
+            consequences=fused.consequences.states.pack(x.consequences),
         )
         for flight in opaque:
             outcome.scores[flight.name], outcome.errors[flight.name] = flight.finish()

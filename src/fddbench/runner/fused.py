@@ -11,6 +11,7 @@ from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, leaves, mapp
 from fddbench.blocks.program import Program, trace
 from fddbench.designs.adapted import Adapted
 from fddbench.interfaces import NEVER, Floats, Loop, Sample, Verdict
+from fddbench.metrics.consequences import Consequences, ConsequenceState
 from fddbench.metrics.score import ScoreConstants, ScoreState
 from fddbench.metrics.scoring import Scoring
 from fddbench.runner.assembly import Assembly, Batch
@@ -30,6 +31,7 @@ class FusedState:
     """States of the loop, of every detector and of its score; sample at which the flight departed, `NEVER` if it did not.
 
     `declared` has the rows of sites on which the loop acts at the next sample; `Nothing` where it acts on nobody.
+    `consequences` is what is kept of the flight itself.
     """
 
     loop: Part
@@ -37,6 +39,7 @@ class FusedState:
     detectors: tuple[Part, ...]
     scores: tuple[ScoreState, ...]
     declared: Part
+    consequences: ConsequenceState
 
 
 @record
@@ -80,6 +83,8 @@ class Fused:
         Those constants, where there is no detector.
     commander : str
         That of them on whose declarations the loop acts; "" for none.
+    consequences : Consequences
+        What is kept of the flight itself.
     """
 
     def __init__(
@@ -89,8 +94,10 @@ class Fused:
         scoring: Mapping[str, Scoring],
         nobody: Scoring,
         commander: str = "",
+        consequences: Consequences | None = None,
     ) -> None:
         self.loop, self.detectors, self.nobody = loop, dict(detectors), nobody
+        self.consequences = consequences or Consequences((), ())
         self.commander = list(self.detectors).index(commander) if commander else None
         declared: Part = len(loop.bus.sites) if commander else Nothing()
         own, self.scoring = tuple(self.detectors.values()), tuple(scoring[name] for name in detectors)
@@ -101,6 +108,7 @@ class Fused:
                 detectors=tuple(detector.states.shape for detector in own),
                 scores=tuple(score.states.shape for score in self.scoring),
                 declared=declared,
+                consequences=self.consequences.states.shape,
             )
         )
         self.constants = Layout(FusedConstants(loop=loop.constants.shape, score=nobody.constants.shape))
@@ -112,7 +120,9 @@ class Fused:
         """Everything of an assembly, with some of its detectors."""
         own = {name: assembly.detectors[name] for name in detectors}
         commander = assembly.commander if assembly.commander in own else ""
-        return cls(assembly.loop, own, assembly.scoring_of, assembly.scoring, commander)
+        return cls(
+            assembly.loop, own, assembly.scoring_of, assembly.scoring, commander, consequences=assembly.consequences
+        )
 
     def packed(self, batch: Batch) -> tuple[Floats, Floats]:
         """State before sample 0 and constants of a batch, (n_rows, n_cases) each."""
@@ -134,6 +144,7 @@ class Fused:
             detectors=tuple(detector.start(Nothing()) for detector in self.detectors.values()),
             scores=tuple(scoring.start(c.score) for scoring in self.scoring),
             declared=Nothing() if self.commander is None else 0.0,
+            consequences=self.consequences.start(),
         )
 
     def step(self, x: FusedState, c: FusedConstants, n: FusedDraws, sample: Row) -> tuple[FusedState, Flown]:
@@ -151,6 +162,10 @@ class Fused:
             scores.append(scored)
             verdicts.append(verdict)
             numbers.append(number)
+        own = c.score
+        lasting = self.consequences.step(
+            x.consequences, seen.truth, k0=own.k0, last=own.last, sample=sample, alive=sample < departed
+        )
         flown = Flown(sample=seen, departed=departed, verdicts=tuple(verdicts), numbers=tuple(numbers))
         after = FusedState(
             loop=loop,
@@ -158,6 +173,7 @@ class Fused:
             detectors=tuple(kept),
             scores=tuple(scores),
             declared=x.declared if self.commander is None else acted_on(verdicts[self.commander]),
+            consequences=lasting,
         )
         return after, flown
 
@@ -173,11 +189,13 @@ class Fused:
             *(d.start(Nothing()) for d in self.detectors.values()),
             *(scoring.start(nowhere) for scoring in self.scoring),
             mapped(lambda _: 0.0, told),
+            self.consequences.start(),
         )
         layouts: tuple[Layout[Any], ...] = (
             *(d.states for d in self.detectors.values()),
             *(scoring.states for scoring in self.scoring),
             Layout(told),
+            self.consequences.states,
         )
         keys: list[Hashable] = list(range(self.loop.states.size + 1))
         for start, layout in zip(starts, layouts, strict=True):

@@ -1,6 +1,6 @@
 """What a worker does: read the frozen campaign, fly a chunk, write its shard, say what is in it."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
@@ -12,6 +12,7 @@ import numpy.typing as npt
 import pyarrow as pa
 
 from fddbench.interfaces import NEVER
+from fddbench.metrics.consequence_rows import consequence_columns
 from fddbench.metrics.rows import event_columns, score_columns, statuses
 from fddbench.metrics.scoring import Scoring
 from fddbench.results.manifest import Shard
@@ -19,6 +20,7 @@ from fddbench.results.schema import EVENTS, rows_schema
 from fddbench.results.shards import write_table
 from fddbench.runner.assembling import assemble
 from fddbench.runner.assembly import Assembly, Batch, has_events
+from fddbench.runner.beside import beside
 from fddbench.runner.chunks import Spans, expand, spans
 from fddbench.runner.fingerprint import frozen_to_fly
 from fddbench.runner.flight import Flyer, Outcome
@@ -88,6 +90,8 @@ def rows_and_events(flyer: Flyer, cases: Cases) -> tuple[pa.Table, pa.Table]:
     able = np.array([reason == "" for reason in batch.infeasible_reason], dtype=bool)
     flown, grounded = batch.take(np.flatnonzero(able)), batch.take(np.flatnonzero(~able))
     outcome = flyer.fly(flown) if able.any() else None
+    if outcome is not None:
+        outcome.twins = beside(flyer, flown, outcome.departed)
     schema = _schema(assembly)
     parts: list[pa.Table] = []
     events = [EVENTS.empty_table()]
@@ -107,7 +111,12 @@ def rows_and_events(flyer: Flyer, cases: Cases) -> tuple[pa.Table, pa.Table]:
 def _schema(assembly: Assembly) -> pa.Schema:
     """Schema of the rows of a campaign."""
     plan = assembly.plan
-    return rows_schema([parameter.name for parameter in plan.plant.parameters], plan.columns, plan.gain_columns)
+    return rows_schema(
+        [parameter.name for parameter in plan.plant.parameters],
+        plan.columns,
+        plan.gain_columns,
+        assembly.consequences.announced,
+    )
 
 
 def rows_of(assembly: Assembly, batch: Batch, outcome: Outcome | None, detector: str) -> pa.Table:
@@ -127,7 +136,23 @@ def _columns(assembly: Assembly, batch: Batch, outcome: Outcome | None, detector
         scoring, score, batch.score_constants, limit_s=batch.faults.limit_s, status=status, departed=departed
     )
     said = {"status": pa.array(status, pa.string()), "reason": pa.array(reason, pa.string())}
+    scores |= _consequences(assembly, batch, outcome, status)
     return _who(assembly, batch, detector) | said | scores
+
+
+def _consequences(assembly: Assembly, batch: Batch, outcome: Outcome | None, status: Sequence[str]) -> Columns:
+    """What was kept of the flights themselves, beside their healthy twins; null where there is no score."""
+    nothing = np.full((assembly.consequences.states.size, len(batch.cases)), np.nan)
+    own, twins = (None, None) if outcome is None else (outcome.consequences, outcome.twins)
+    departed = np.full(len(batch.cases), NEVER) if outcome is None else outcome.departed
+    return consequence_columns(
+        assembly.consequences,
+        nothing if own is None else own,
+        nothing if twins is None else twins,
+        k0=batch.faults.k0,
+        last_scored=assembly.last_scored(batch, departed),
+        valid=np.array([each == "ok" for each in status], dtype=bool),
+    )
 
 
 def _scoring(assembly: Assembly, outcome: Outcome | None, detector: str) -> Scoring:

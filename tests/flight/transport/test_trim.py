@@ -5,7 +5,8 @@ import pytest
 
 from fddbench.flight.atmosphere import GRAVITY_M_S2
 from fddbench.flight.transport.air import air_around
-from fddbench.flight.transport.equations import State, derivative, flow_of, thrust_n
+from fddbench.flight.transport.equations import State, derivative, flow_of, forces, thrust_n
+from fddbench.flight.transport.motion import motion_of
 from fddbench.flight.transport.trim import neutral, residual, trim
 from fddbench.flight.wind import still
 
@@ -43,3 +44,15 @@ def test_a_trimmed_flight_moves_north_and_nowhere_else(twin):
     expected[10] = at.v_tas_m_s
     np.testing.assert_allclose(found, expected, atol=1e-9)
     assert trim(twin.jet, body, at.v_tas_m_s, at.altitude_m).alpha_rad.tobytes() == at.alpha_rad.tobytes()
+
+
+def test_in_level_flight_the_drag_is_the_thrust_along_the_path(twin):
+    """And lift over drag is that of a transport aircraft."""
+    body, at = twin.trimmed(*twin.table_5[:, ::9])
+    air, begun = air_around(at.altitude_m), State(*at.rows())
+    felt = forces(twin.jet, body, air, begun, neutral(at.stabiliser_rad), still(at.alpha_rad), at.thrust_ratio)
+    motion = motion_of(begun, air, felt, 0.0, 0.0, mass_kg=body.mass_kg)
+    np.testing.assert_allclose(motion.drag_n, body.mass_kg * felt.thrust * np.cos(at.alpha_rad), rtol=1e-12)
+    glide = body.mass_kg * GRAVITY_M_S2 / motion.drag_n
+    assert (glide > 10.0).all()
+    assert (glide < 20.0).all()

@@ -15,7 +15,7 @@ from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, record
 from fddbench.faults.injection import SignalFaults, SignalFaultsState
 from fddbench.flight.b747.airframe import DATA
 from fddbench.flight.wind import AirMotion, Encounter, Wind
-from fddbench.interfaces import Bus, Flights, Options, Prepared, Sample, Site
+from fddbench.interfaces import Bus, Consequence, Flights, Options, Prepared, Sample, Site
 
 __all__ = ["LongitudinalLoop"]
 
@@ -92,6 +92,11 @@ class LongitudinalLoop:
         "thrust_true_n",
         "u_gust_m_s",
         "w_gust_m_s",
+    )
+    consequences = (
+        Consequence(name="speed_error_m_s", signal="v_tas_true_m_s", how="error", about="true airspeed"),
+        Consequence(name="flight_path_error_deg", signal="gamma_true_deg", how="error", about="flight path angle"),
+        Consequence(name="altitude_error_m", signal="altitude_true_m", how="error", about="altitude"),
     )
 
     def __init__(

@@ -61,6 +61,8 @@ class HinfRecipe(Recipe):
         How much larger than the optimum γ of the filter that flies may be [-].
     window_s, confirm_s : float
         Evaluation of the residuals, copied into the gains.
+    about_first : bool
+        Copied into the gains.
     sensors : SensorsEntry
         Decision among redundant sensors, copied into the gains.
     found : mapping
@@ -86,6 +88,7 @@ class HinfRecipe(Recipe):
     relax: Annotated[float, Field(gt=0.0, le=1.0)] = _SECOND_STEP
     window_s: Annotated[float, Field(gt=0.0)]
     confirm_s: Annotated[float, Field(ge=0.0)]
+    about_first: bool = False
     sensors: SensorsEntry | None = None
 
     @classmethod

@@ -135,6 +135,7 @@ def gains_of(filter_: Filter, recipe: "HinfRecipe") -> dict[str, Any]:
     names = {"A": "Ak", "B_y": "Bky", "B_u": "Bku", "C": "Ck", "D_y": "Dky", "D_u": "Dku"}
     gains: dict[str, Any] = {name: getattr(filter_, own).tolist() for name, own in names.items()}
     gains |= {"window_s": recipe.window_s, "confirm_s": recipe.confirm_s, "thresholds": [1.0] * len(filter_.Ck)}
+    gains |= {"about_first": True} if recipe.about_first else {}
     gains |= {} if recipe.sensors is None else {"sensors": recipe.sensors.model_dump(mode="json")}
     return gains | ({"estimates_faults": True} if _speaks_plainly(recipe) else {})
 

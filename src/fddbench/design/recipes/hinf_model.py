@@ -1,6 +1,7 @@
 """Plants of a `hinf_filter` recipe that come of the affine model of a scheduling: corners of its box, or flight conditions."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -40,6 +41,12 @@ class ModelEntry(Strict):
     at : list of mapping of signal to number
         Flight conditions: the model is linearised at each, and the hull of what comes of it is the set of plants. Channels are
         about the first. The corners of the box of the model when left out.
+    taken_as_inputs : list of str
+        Signals of outputs that are states by themselves: what they drive is known since they are measured, and their own rows
+        are left out. So a slow or unstable part of the plant that a filter need not model is none of its business.
+    units : mapping of signal to number
+        Of a model whose outputs are its states, the unit that the filter takes of a signal in the unit of the bus: 10000 for a
+        thrust in 10 kN, 1 where nothing is said. A solver needs numbers of one size. Faults of inputs are in it too.
     faults : mapping of site to EnteringEntry
         In the order of the residuals.
     """
@@ -47,6 +54,8 @@ class ModelEntry(Strict):
     scheduling: str
     name: str
     at: Annotated[tuple[dict[str, Number], ...], Field(min_length=1)] | None = None
+    taken_as_inputs: tuple[str, ...] = ()
+    units: dict[str, Annotated[float, Field(gt=0.0)]] | None = None
     faults: Annotated[dict[Name, EnteringEntry], Field(min_length=1)]
 
 
@@ -77,7 +86,9 @@ def model_plants(entry: ModelEntry, beside: Path) -> ModelPlants:
             f"{did_you_mean(entry.name, models)} It has: {', '.join(models) or 'none'}"
         )
     model = models[entry.name]()
-    members = _members(model, entry, scheduling)
+    members = [
+        _reduced(_in_units(each, entry.units), entry.taken_as_inputs) for each in _members(model, entry, scheduling)
+    ]
     # a constant is no input that could have a size, and moves nothing about a trim
     signals = [j for j, channel in enumerate(members[0].inputs) if channel.signal]
     plants = tuple(_plant(own.A[0], own.B[0], own, entry, signals) for own in members)
@@ -104,6 +115,51 @@ def _members(model: AffineModel, entry: ModelEntry, scheduling: Scheduling) -> l
     ]  # fmt: skip
 
 
+def _in_units(model: AffineModel, units: Mapping[str, float] | None) -> AffineModel:
+    """A model whose outputs are its states with these, and its inputs, in units of the signals; as it is without any."""
+    if units is None:
+        return model
+    channels = (*model.outputs, *model.inputs)
+    unknown = [name for name in units if name not in {channel.signal for channel in channels}]
+    if unknown or not np.array_equal(model.C, np.eye(model.A.shape[1])):
+        known = ", ".join(dict.fromkeys(channel.signal for channel in channels if channel.signal))
+        raise DesignError(
+            f"recipe.model.units: {', '.join(unknown) or 'they'} must belong to signals of a model whose outputs are its "
+            f"states; it has {known}"
+        )
+    size = [channel.scale * units.get(channel.signal, 1.0) if channel.signal else 1.0 for channel in channels]
+    x, u = np.split(np.array(size), [len(model.outputs)])
+    outputs, inputs = (
+        tuple(replace(c, scale=1.0 / units.get(c.signal, 1.0)) if c.signal else c for c in each)
+        for each in (model.outputs, model.inputs)
+    )
+    A, B = model.A * x / x[:, np.newaxis], model.B * u / x[:, np.newaxis]
+    return replace(model, A=A, B=B, outputs=outputs, inputs=inputs)
+
+
+def _reduced(model: AffineModel, names: tuple[str, ...]) -> AffineModel:
+    """The model with some of its states, which are outputs, as inputs in front of the others."""
+    if not names:
+        return model
+    signals = [channel.signal for channel in model.outputs]
+    wrong = [name for name in names if signals.count(name) != 1]
+    if wrong or not np.array_equal(model.C, np.eye(len(model.A[0]))):
+        raise DesignError(
+            f"recipe.model.taken_as_inputs: {', '.join(wrong or names)} must be an output that is a state by itself; the "
+            f"outputs are {', '.join(signals)}"
+        )
+    moved = [signals.index(name) for name in names]
+    kept = [j for j in range(len(signals)) if j not in moved]
+    return replace(
+        model,
+        A=model.A[:, kept][:, :, kept],
+        B=np.concatenate([model.A[:, kept][:, :, moved], model.B[:, kept]], axis=2),
+        C=np.eye(len(kept)),
+        outputs=tuple(model.outputs[j] for j in kept),
+        inputs=(*(model.outputs[j] for j in moved), *model.inputs),
+    )
+
+
 def _plant(A: Floats, B: Floats, model: AffineModel, entry: ModelEntry, signals: list[int]) -> UncertainPlant:
     """One vertex."""
     n, n_y, n_f = len(A), len(model.C), len(entry.faults)
@@ -122,7 +178,8 @@ def _plant(A: Floats, B: Floats, model: AffineModel, entry: ModelEntry, signals:
             )
         else:
             place = signals[names.index(entering.input or "")]
-            Bf[:, column] = B[:, place] * model.inputs[place].scale
+            unit = 1.0 if entry.units is not None else model.inputs[place].scale
+            Bf[:, column] = B[:, place] * unit
     return UncertainPlant(
         A=A, Bf=Bf, Bd=np.hstack([np.eye(n), np.zeros((n, n_y))]), B=B[:, signals], C=model.C, Df=Df,
         Dd=np.hstack([np.zeros((n_y, n)), np.eye(n_y)]), D=np.zeros((n_y, len(signals))),

@@ -75,11 +75,12 @@ class Body:
 
 
 class Forces(NamedTuple):
-    """Force over mass without gravity [m/s^2], moments about the centre of gravity [N m]; how the air meets it."""
+    """Force over mass without gravity [m/s^2], that of the engines in it, moments about the centre of gravity [N m]."""
 
     x: Row
     y: Row
     z: Row
+    thrust: Row
     roll: Row
     pitch: Row
     yaw: Row
@@ -139,7 +140,8 @@ def forces(
     area = flow.pressure_pa * aircraft.geometry.wing_area_m2
     per_mass = area / body.mass_kg
     thrust = thrust_ratio * thrust_n(aircraft, density, flow.mach)
-    a_x = per_mass * (body.one_c_x * along.c_x) + thrust / body.mass_kg
+    pushed = thrust / body.mass_kg
+    a_x = per_mass * (body.one_c_x * along.c_x) + pushed
     a_z = per_mass * (body.one_c_z * along.c_z)
     g_x, _, g_z = gravity(x)
     # incidence changes with the accelerations of this instant; the air itself is held
@@ -152,6 +154,7 @@ def forces(
         x=a_x,
         y=per_mass * (body.one_c_y * across.c_y),
         z=a_z,
+        thrust=pushed,
         roll=span_area * (body.one_c_l * across.c_l),
         pitch=chord_area * c_m + aircraft.geometry.thrust_arm_m * thrust,
         yaw=span_area * (body.one_c_n * across.c_n),

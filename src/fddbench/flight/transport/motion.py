@@ -17,6 +17,7 @@ _P0_PA, _SOUND0_M_S, _GAS_J_KG_K = 101325.0, float(np.sqrt(1.4 * 287.05287 * 288
 class Motion:
     """True motion, (n_cases,) each: angles [rad], rates [rad/s], load factor down the body axis [g], speeds, position [m].
 
+    `drag_n` is the force of the air against the airspeed, that of a sideslip in it;
     `v_cas_dot_kt_s` is the rate of the calibrated airspeed in air at rest; `pressure_pa` the dynamic pressure.
     """
 
@@ -39,6 +40,7 @@ class Motion:
     altitude_m: Row
     climb_m_s: Row
     east_m: Row
+    drag_n: Row
 
 
 def calibrated_kt(mach: Row, pressure_pa: Row) -> Row:
@@ -53,7 +55,7 @@ def calibrated_kt(mach: Row, pressure_pa: Row) -> Row:
     return (_SOUND0_M_S / KT_M_S) * np.sqrt(5.0 * at_sea_level)
 
 
-def motion_of(x: State, air: AirAround, f: Forces, wind_north_m_s: Row, wind_east_m_s: Row) -> Motion:
+def motion_of(x: State, air: AirAround, f: Forces, wind_north_m_s: Row, wind_east_m_s: Row, *, mass_kg: Row) -> Motion:
     """Motion of a state in the air around it, with the forces there; a steady wind is in the track only."""
     phi, theta, psi = euler_rad(x)
     density, temperature = air.at(x.altitude)
@@ -86,7 +88,15 @@ def motion_of(x: State, air: AirAround, f: Forces, wind_north_m_s: Row, wind_eas
         altitude_m=x.altitude,
         climb_m_s=-down,
         east_m=x.east,
+        drag_n=mass_kg * _drag_m_s2(f),
     )
+
+
+def _drag_m_s2(f: Forces) -> Row:
+    """Force of the air against the airspeed over mass [m/s^2]."""
+    flow = f.flow
+    in_plane = (f.x - f.thrust) * flow.cos_alpha + f.z * flow.sin_alpha
+    return -(np.sqrt(1.0 - flow.sin_beta * flow.sin_beta) * in_plane + f.y * flow.sin_beta)
 
 
 def _small_asin(x: Row) -> Row:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from fddbench.benchmarks.yaw_rate.breaking import Breaking, Broken
+from fddbench.benchmarks.yaw_rate.consequences import CONSEQUENCES
 from fddbench.benchmarks.yaw_rate.transport.law import LawState, Orders, TransportLaw
 from fddbench.benchmarks.yaw_rate.transport.plant import PlantConstants, TransportPlant, controls_of
 from fddbench.benchmarks.yaw_rate.transport.seeing import TRUTH, departed, measured, sensed, signals, truth
@@ -82,6 +83,7 @@ class TransportLoop:
 
     reconfigures = True
     truth = TRUTH
+    consequences = CONSEQUENCES
 
     def __init__(self, plant: TransportPlant, options: Options) -> None:
         chosen = options.chosen

@@ -30,7 +30,16 @@ TRUTH = (
         "y_m",
         "gust_m_s",
     ),
-    *("theta_true_deg", "alpha_true_deg", "q_true_deg_s", "n_z_true_g", "altitude_true_ft", "v_cas_true_kt", "mach"),
+    *(
+        "theta_true_deg",
+        "alpha_true_deg",
+        "q_true_deg_s",
+        "n_z_true_g",
+        "altitude_true_ft",
+        "v_cas_true_kt",
+        "mach",
+        "drag_n",
+    ),
     *GUIDANCE,
 )
 RESPONSES = (
@@ -77,7 +86,7 @@ def measured(
     return SimpleNamespace(
         phi_deg=voted.get(PHI_UNITS, readings.phi_deg),
         theta_deg=readings.theta_deg,
-        beta_deg=readings.beta_deg,
+        beta_deg=readings.beta_deg + c.beta_error_deg,
         p_deg_s=voted.get(P_UNITS, readings.p_deg_s),
         q_deg_s=readings.q_deg_s,
         r_deg_s=s["r_deg_s"],
@@ -130,7 +139,7 @@ def truth(motion: Motion, gust_m_s: Row, guidance: Mapping[str, Row]) -> dict[st
     degrees = (m.phi_rad, m.beta_rad, m.p_rad_s, m.r_rad_s, m.psi_rad)
     first = (*(DEG_PER_RAD * each for each in degrees), m.east_m, gust_m_s)
     pitch = tuple(DEG_PER_RAD * each for each in (m.theta_rad, m.alpha_rad, m.q_rad_s))
-    own = (*first, *pitch, m.n_z_g, m.altitude_m / FT_M, m.v_cas_kt, m.mach)
+    own = (*first, *pitch, m.n_z_g, m.altitude_m / FT_M, m.v_cas_kt, m.mach, m.drag_n)
     return dict(zip(TRUTH, own, strict=False)) | dict(guidance)
 
 
