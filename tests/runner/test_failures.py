@@ -10,7 +10,6 @@ from fddbench.blocks.layout import Nothing
 from fddbench.campaign.load import read_campaign
 from fddbench.designs.adapted import Adapted
 from fddbench.runner.assembling import assemble
-from fddbench.runner.assembly import Assembly
 from fddbench.runner.flight import Flyer
 from fddbench.runner.work import rows_and_events
 
@@ -49,7 +48,7 @@ def _flown_by(flyer):
 def _flown(assembly, wrong, backend):
     monitor = assembly.detectors["voting_monitor"]
     detectors = {**assembly.detectors, "wrong": Adapted(Faulty(monitor, wrong), monitor.bus)}
-    broken = Assembly(plan=assembly.plan, loop=assembly.loop, detectors=detectors, scoring=assembly.scoring)
+    broken = replace(assembly, detectors=detectors)
     return _flown_by(Flyer(broken, backend))
 
 
