@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint wheel lowest scores findings bench clean
+.PHONY: demo test lint wheel lowest scores findings comparison bench clean
 
 demo: $(VENV)/ready
 	$(BIN)/fddbench run campaigns/smoke.yaml --fresh
@@ -40,6 +40,12 @@ findings: $(VENV)/ready
 	  grep -q '^purpose: tuning' $$path && continue; \
 	  $(BIN)/fddbench run $$path --fresh --quiet; mkdir -p reports/$$name \
 	  && $(BIN)/fddbench finding results/$$name > reports/$$name/finding.md || exit 1; done
+
+# the designs of yaw_rate_comparison: every detector tuned on the same flights, to the same false alarms, in the same way
+comparison: $(VENV)/ready
+	for design in $$(sed -n 's/^  - \([a-z_0-9]*\)$$/\1/p' campaigns/yaw_rate_comparison_tuning.yaml); do \
+	  $(BIN)/fddbench tune $$design yaw_rate_comparison_tuning --false-alarm-rate 0.01 --by factor \
+	    --output detectors/$${design}_compared.yaml --force || exit 1; done
 
 # how fast the engine is beside others, on a machine that does nothing else
 bench: $(VENV)/ready-bench

@@ -11,13 +11,18 @@ if TYPE_CHECKING:
     from fddbench.api.bounds import bounds
     from fddbench.api.campaigns import plan, read, run
     from fddbench.api.comparing import compare
+    from fddbench.api.curves import operating_curve
     from fddbench.api.designs import tune
+    from fddbench.api.detection_curves import pod
     from fddbench.api.findings import finding
     from fddbench.api.flights import score, signals
     from fddbench.api.pages import report
+    from fddbench.api.pictures import reconstruction_picture, tradeoff_picture
     from fddbench.api.replaying import table_of
     from fddbench.api.summaries import summary
     from fddbench.api.tables import alarms, columns, detectable, load, load_events
+    from fddbench.api.tradeoffs import tradeoff
+    from fddbench.api.verifying import verify
     from fddbench.api.worst import worst
 
 __all__ = [
@@ -30,15 +35,21 @@ __all__ = [
     "finding",
     "load",
     "load_events",
+    "operating_curve",
     "plan",
+    "pod",
     "read",
+    "reconstruction_picture",
     "report",
     "run",
     "score",
     "signals",
     "summary",
     "table_of",
+    "tradeoff",
+    "tradeoff_picture",
     "tune",
+    "verify",
     "worst",
 ]
 __version__ = "0.1.0"
@@ -47,13 +58,18 @@ _ROOMS = {
     **dict.fromkeys(("plan", "read", "run"), "campaigns"),
     **dict.fromkeys(("alarms", "columns", "detectable", "load", "load_events"), "tables"),
     **dict.fromkeys(("score", "signals"), "flights"),
+    **dict.fromkeys(("reconstruction_picture", "tradeoff_picture"), "pictures"),
     "compare": "comparing",
     "bounds": "bounds",
     "finding": "findings",
+    "pod": "detection_curves",
     "summary": "summaries",
     "report": "pages",
     "table_of": "replaying",
+    "tradeoff": "tradeoffs",
+    "operating_curve": "curves",
     "tune": "designs",
+    "verify": "verifying",
     "worst": "worst",
 }
 

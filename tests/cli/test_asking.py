@@ -31,6 +31,9 @@ def test_a_benchmark_shows_all_its_names(name, capsys):
         assert all(f"  {option} " in text for option in choice.options)
     shipped = {"jet_engine": "hinf_final", "yaw_rate": "sliding_mode_published"}
     assert {one: shipped[one] in text for one in shipped} == {one: one == name for one in shipped}
+    # with each of its plants
+    besides = "  with sensors: iru besides phi1, phi2, phi3, p1, p2, p3\n"
+    assert text.count(besides) == {"jet_engine": 0, "yaw_rate": 2}[name]
 
 
 def test_each_manoeuvre_has_its_sketch(capsys):

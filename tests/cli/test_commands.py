@@ -157,3 +157,20 @@ def test_a_closed_pipe_is_no_traceback(tiny):
     done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "benchmarks"
     assert done.stderr == ""
+
+
+def test_several_campaigns_fly_in_turn_and_the_worst_exit_code_counts(tiny, capsys):
+    (tiny / "other.yaml").write_text(TINY.replace("name: tiny", "name: other"))
+    (tiny / "wrong.yaml").write_text(TINY.replace("seed:", "sed:"))
+    assert main(["run", "tiny.yaml", "other.yaml", "--quiet"]) == 0
+    capsys.readouterr()
+    assert main(["run", "wrong.yaml", "tiny.yaml", "--quiet"]) == 2
+    told = capsys.readouterr()
+    assert "sed" in told.err
+    assert [line.split(maxsplit=1) for line in told.out.splitlines()[-2:]] == [
+        ["wrong.yaml", "not flown, see above"],
+        ["tiny.yaml", "done"],
+    ]
+    assert {path.name for path in (tiny / "results").iterdir()} == {"tiny", "other"}
+    assert main(["run", "tiny.yaml", "other.yaml", "--out", "x"]) == 2
+    assert "--out names the folder of one campaign" in capsys.readouterr().err

@@ -161,3 +161,26 @@ def test_flights_of_another_seed_are_no_pairs(folder, tmp_path, capsys):
     assert main(["run", str(tmp_path / "other.yaml"), "--out", str(tmp_path / "out"), "--quiet", "--jobs", "1"]) == 0
     assert main(["compare", str(folder), str(tmp_path / "out")]) == 2
     assert "have no flight in common" in capsys.readouterr().err
+
+
+def test_sizes_that_differ_have_a_curve_or_the_reason_why_not(folder, tmp_path, capsys):
+    # what is not found after 2 s is missed
+    sizes = CAMPAIGN.replace("jam_a, manoeuvre: cruise,", "jam_a, manoeuvre: cruise, detection_time_limit_s: 2.0,")
+    sizes = sizes.replace("amplitude_percent: 1.25", "amplitude_percent: {log_uniform: [0.2, 3.0]}").replace(
+        "runs: 8", "runs: 30"
+    )
+    (tmp_path / "sizes.yaml").write_text(sizes, encoding="utf-8")
+    assert main(["run", str(tmp_path / "sizes.yaml"), "--out", str(tmp_path / "out"), "--quiet", "--jobs", "1"]) == 0
+    capsys.readouterr()
+    assert main(["pod", str(tmp_path / "out")]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == 3
+    assert all("f1_amplitude_percent" in line for line in lines[1:])
+    table = fddbench.pod(tmp_path / "out")
+    voting = table[table["detector"] == "voting_monitor"].iloc[0]
+    # 0.75 % of the range is what its flag takes
+    assert voting["size_90"] == pytest.approx(0.75, abs=0.15)
+    assert main(["pod", str(folder)]) == 2
+    assert "has a size that differs; sweep one" in capsys.readouterr().err
+    assert main(["pod", str(tmp_path / "out"), "--size", "f1_amplitud"]) == 2
+    assert "the rows have no column 'f1_amplitud'. Did you mean 'f1_amplitude_percent'?" in capsys.readouterr().err

@@ -257,7 +257,9 @@ def test_refuses_a_benchmark_that_cannot_act(write):
     path = write(["hinf_final"], "hinf_final", benchmark="jet_engine", dispersions={}, scenarios=[
         {"name": "healthy", "manoeuvre": "steps"}
     ])  # fmt: skip
-    with pytest.raises(CampaignError, match=r"campaign.yaml:\d+:\d+: benchmark 'jet_engine' with .* cannot act on what"):
+    with pytest.raises(
+        CampaignError, match=r"campaign.yaml:\d+:\d+: benchmark 'jet_engine' with .* cannot act on what"
+    ):
         assembled(path)
 
 

@@ -4,10 +4,12 @@ import pandas as pd
 import pytest
 import yaml
 
-from fddbench import gallery, load
+import fddbench
+from fddbench import gallery, load, operating_curve
 from fddbench.blocks.accounting import cost
 from fddbench.blocks.merge import merged
 from fddbench.campaign.load import read_campaign
+from fddbench.errors import FddbenchError
 from fddbench.reporting.scores import scores_text
 from fddbench.results.folder import provenance_of
 from fddbench.runner.assembling import assemble
@@ -85,6 +87,41 @@ def test_goes_on_where_it_stopped(folders):
     assert list(provenance_of(folders / "swept")["designs_sha256"]) == names
     scores = scores_text(load(folders / "swept"), provenance_of(folders / "swept"), (), None)
     assert all(name in scores for name in names)
+
+
+def test_operating_curves_have_the_points_of_their_designs_in_order(folders):
+    curve = operating_curve(folders / "swept")
+    assert list(dict.fromkeys(zip(curve["design"], curve["gain"], strict=True))) == [
+        ("sliding_mode_published", "threshold_floor_deg_s"), ("sliding_mode_published", "k"), ("cusum_example", "limit_deg_s"),
+    ]  # fmt: skip
+    assert curve["value"].tolist() == [0.1, 0.4, 2.0, 1.0, 4.0]
+    assert set(curve["scenario"]) == {"jam"}
+    assert not curve["as_designed"].any()
+    rows, alarms = load(folders / "swept"), fddbench.alarms(folders / "swept").set_index("detector")
+    for line in curve.itertuples():
+        assert line.false_alarm_per_hour == alarms.loc[line.detector, "false_alarm_per_hour"]
+        own = rows[(rows["detector"] == line.detector) & (rows["scenario"] == "jam")]
+        assert line.missed_percent == pytest.approx(100 * own["outcome"].isin(["missed", "late"]).mean())
+        assert line.detections == own["detection_time_s"].notna().sum()
+    assert curve["missed_percent"].iloc[0] <= curve["missed_percent"].iloc[1]  # a higher floor misses more
+    assert operating_curve(folders / "swept", gain="k").shape[0] == 1
+    assert set(fddbench.columns("operating")) == set(curve.columns)
+
+
+def test_an_operating_curve_that_is_not_there_is_told(folders):
+    with pytest.raises(FddbenchError, match="no such operating curve. It has those of sliding_mode_published"):
+        operating_curve(folders / "swept", design="voting_monitor")
+    with pytest.raises(FddbenchError, match="apart has no operating curve. A campaign sweeps a gain as"):
+        operating_curve(folders / "apart")
+
+
+def test_the_design_itself_is_a_point_of_its_curve(folders):
+    swept = "{design: sliding_mode_published, sweep: {threshold_floor_deg_s: [0.1, 0.4], k: {scale: [2]}}}"
+    detectors = f"detectors=[sliding_mode_published, {swept}]"
+    run_campaign(read_campaign(folders / "swept.yaml", [detectors]), folders / "beside", jobs=1)
+    curve = operating_curve(folders / "beside")
+    assert curve["value"].tolist() == [0.1, 0.25, 0.4, 1.0, 2.0]
+    assert curve["as_designed"].tolist() == [False, True, False, True, False]
 
 
 def test_variants_share_what_does_not_differ():

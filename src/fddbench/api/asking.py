@@ -102,7 +102,8 @@ def _benchmark(bench: Benchmark) -> str:
     alike: dict[str, list[str]] = {}  # plants by what they have, for those that have the same stand together
     for name, member in (plants or {"": None}).items():
         own = {**chosen, "plant": member} if name else chosen
-        text = "\n".join(_plant(bench, bench.plant(own), bench.loop(Options(chosen=own)), name))
+        besides = list(_more_sites(bench, own))
+        text = "\n".join(_plant(bench, bench.plant(own), bench.loop(Options(chosen=own)), name, besides))
         alike.setdefault(text, []).append(name)
     for text, names in alike.items():
         lines += ["", *([f"with plant: {', '.join(names)}"] if names[0] else []), text]
@@ -116,13 +117,26 @@ def _option(member: Any) -> str:
     if isinstance(member, type):
         return _said(member)
     fields = getattr(member, "__dataclass_fields__", {})
-    return ", ".join(f"{name} {getattr(member, name)}" for name in fields) if fields else _said(member)
+    given = {name: getattr(member, name) for name in fields if getattr(member, name) is not None}
+    return ", ".join(f"{name} {value}" for name, value in given.items()) if given else _said(member)
 
 
-def _plant(bench: Benchmark, plant: Plant, loop: Loop, name: str) -> Iterator[str]:
+def _more_sites(bench: Benchmark, chosen: Mapping[str, Any]) -> Iterator[str]:
+    """Lines of the fault sites that other options than the defaults bring."""
+    there = {site.name for site in bench.plant(chosen).sites}
+    for key, choice in bench.choices.items():
+        for name in choice.options if key != "plant" else ():
+            sites = bench.plant({**chosen, key: choice.options[name]}).sites
+            more = [site.name for site in sites if site.name not in there]
+            if more:
+                yield f"  with {key}: {name} besides {', '.join(more)}"
+
+
+def _plant(bench: Benchmark, plant: Plant, loop: Loop, name: str, besides: list[str]) -> Iterator[str]:
     """Sites, manoeuvres, parameters and signals of a plant, and the designs that fit it."""
     yield f"fault sites (limits are {bench.limits_from})"
     yield from _aligned({site.name: _site(site) for site in plant.sites})
+    yield from besides
     yield "manoeuvres, with the length of a healthy flight"
     drawn, fitting = sketches(bench, plant, name), list(_fitting(loop))
     width = max(map(len, plant.manoeuvres)) + 2

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
-from fddbench.campaign.load import find_campaign
+from fddbench.campaign.finding import find_campaign
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.reading.yaml_nodes import read_yaml
 from fddbench.design.tuning.checks import require_enough, require_tuning
@@ -181,21 +181,22 @@ def _by_residual(assembly: Assembly, design: Design, target: Target) -> TunedDes
     parts = list(healthy_signals(assembly, design.name, names))
     if not parts:
         raise DesignError(f"none of the healthy flights of {campaign.path} can be flown")
-    held = round(detector.confirm_samples)
-    peaks = [np.stack([held_peaks(part.signals[name], held) for name in names], axis=1) for part in parts]
-    every = np.concatenate(peaks)
+    held, every = round(detector.confirm_samples), design.every
+    # on its own clock: a decision that is held for n samples is one
+    peaks = [np.stack([held_peaks(part.signals[name][::every], held) for name in names], axis=1) for part in parts]
+    all_peaks = np.concatenate(peaks)
     time_s, run = np.concatenate([part.time_s for part in parts]), np.concatenate([part.run for part in parts])
 
     def said(alarm: Any) -> Promise:
         return promise(Healthy(alarm=alarm, time_s=time_s, run=run), target, fitted=fitted)
 
     require_enough(Healthy(alarm=time_s < 0.0, time_s=time_s, run=run), target, campaign, fitted=fitted)
-    found = tuned(every, lambda alarm: target.kept(said(alarm)))
+    found = tuned(all_peaks, lambda alarm: target.kept(said(alarm)))
     written = changed_gains(design, "thresholds", lambda _: list(found.thresholds))
     return TunedDesign(
         name=design.name, text=_text(with_gains(design, written, design.name), campaign),
         thresholds={"thresholds": list(found.thresholds)}, factor=None, resolution=None, target=target,
-        promise=said(np.any(every > np.array(found.thresholds), axis=1)), tried=1,
+        promise=said(np.any(all_peaks > np.array(found.thresholds), axis=1)), tried=1,
     )  # fmt: skip
 
 

@@ -160,6 +160,16 @@ class Layout(Generic[T]):
         found = zip(self._values(values), shapes, strict=True)
         return filled(self.shape, (np.broadcast_to(value, shape) for value, shape in found))
 
+    def ordered(self, values: T) -> T:
+        """The same leaves in declared order: another record may have them in another.
+
+        Raises
+        ------
+        TypeError
+            It has not these leaves.
+        """
+        return filled(self.shape, iter(self._values(values)))
+
     def _values(self, values: T) -> list[Any]:
         """Leaves in declared order, found by their paths: another record may have the same ones in another order."""
         given = dict(leaves(values))

@@ -161,7 +161,12 @@ def _dispersions(dispersions: Dispersions) -> Iterator[str]:
     parts += [f"in sequence {name}: {_values(values)}" for name, values in dispersions.sequence.items()]
     if dispersions.monte_carlo:
         drawn = dispersions.monte_carlo
-        parts += [f"{drawn.runs:,} Monte-Carlo runs"]
+        how = {"random": "", "lhs": ", a Latin hypercube"}.get(
+            drawn.sampling, f", points of {drawn.sampling.capitalize()}"
+        )
+        rows = f", rows of {drawn.table}" if drawn.table else ""
+        parts += [f"{drawn.runs:,} Monte-Carlo runs{how}{rows}"]
+        parts += [f"correlation {value:g} of {one} and {other}" for one, other, value in drawn.correlation]
         parts += [f"{name} {_distribution(value)}" for name, value in drawn.parameters.items()]
     yield "Dispersed" if parts else "No dispersions: every flight has the benchmark's default parameters"
     yield from (f"  {part}" for part in parts)
@@ -186,7 +191,8 @@ def _design(variants: Sequence[Design]) -> Iterator[str]:
     """A design, and what of it is swept."""
     design = variants[0]
     seen = ", ".join(f"{entry.campaign} seed {entry.seed}" for entry in design.tuned_on) or "no campaign"
-    text = f"{design.base} ({design.kind.name}): {' '.join(design.source.split()).rstrip('.')}; tuned on {seen}"
+    every = f", a step every {design.every} samples" if design.every > 1 else ""
+    text = f"{design.base} ({design.kind.name}{every}): {' '.join(design.source.split()).rstrip('.')}; tuned on {seen}"
     yield fill(text, _WIDTH, initial_indent="  ", subsequent_indent="    ")
     gains = [each.swept for each in variants if each.swept]
     for column in dict.fromkeys(gain.column for gain in gains):

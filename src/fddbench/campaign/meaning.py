@@ -8,7 +8,7 @@ from typing import Any
 from fddbench.campaign.rules.model import Dispersions, Purpose, ScenarioEntry
 from fddbench.designs.design import Design
 from fddbench.faults.specification import FaultSpecification
-from fddbench.interfaces import Benchmark, Plant
+from fddbench.interfaces import Benchmark, Floats, Plant
 
 __all__ = ["Campaign", "Scenario"]
 
@@ -54,6 +54,8 @@ class Campaign:
         Name of the detector on whose declarations the aircraft acts, "" for none, and where the file says so.
     text : str
         Canonical YAML of the campaign with all overrides; `read_campaign` reads it back to the same campaign.
+    table : mapping of str to (n_rows,) array
+        Explicit cases by name of the parameter, a row a run; empty without.
     beside : mapping of str to bytes
         Files beside the campaign that its kinds come from.
     sha256 : str
@@ -79,6 +81,7 @@ class Campaign:
     reconfigure: str
     reconfigure_where: str = field(repr=False)
     text: str = field(repr=False)
+    table: Mapping[str, Floats] = field(repr=False)
     beside: Mapping[str, bytes] = field(repr=False)
     sha256: str
 

@@ -212,6 +212,7 @@ class Plan:
             purpose=self.campaign.purpose,
             points=at.point,
             runs=at.run,
+            table=self.campaign.table,
         )
 
     def flown(self, scenario: int, level: Cases, run: Cases) -> tuple[Faults, dict[str, Floats]]:

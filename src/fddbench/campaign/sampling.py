@@ -1,6 +1,6 @@
 """Parameters of a flight: fixed by its point, drawn by its run, a pure function of the seed."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -8,6 +8,7 @@ import numpy.typing as npt
 from fddbench.blocks.consumers import DISPERSION, MAX_ATTEMPTS
 from fddbench.blocks.philox import normals, uniforms
 from fddbench.campaign.rules.model import Dispersions, Distribution, Purpose, TruncatedNormal
+from fddbench.campaign.shares import drawn_together
 from fddbench.campaign.streams import flight_stream, name_word
 from fddbench.interfaces import Floats, Parameter
 
@@ -53,6 +54,7 @@ def parameters(
     purpose: Purpose,
     points: Runs,
     runs: Runs,
+    table: Mapping[str, Floats] | None = None,
 ) -> dict[str, Floats]:
     """Parameters of flights, true values, each (n,) in the unit of its name.
 
@@ -67,6 +69,8 @@ def parameters(
         Seed of the campaign.
     points, runs : (n,) integers
         Numbers of the points and of the Monte-Carlo draws.
+    table : mapping of str to (n_rows,) array, optional
+        Explicit cases, a row a run.
     """
     runs = np.asarray(runs, dtype=np.int64)
     *grid, sequence = digits(points, point_radices(dispersions))
@@ -76,8 +80,13 @@ def parameters(
     for name, values in dispersions.sequence.items():
         found[name] = np.asarray(values, dtype=float)[sequence]
     if dispersions.monte_carlo:
+        stream = flight_stream(purpose)
+        together = drawn_together(dispersions.monte_carlo, key=key, stream=stream, runs=runs)
         for name, distribution in dispersions.monte_carlo.parameters.items():
-            found[name] = _draw(distribution, name, key=key, stream=flight_stream(purpose), runs=runs)
+            alone = name not in together
+            found[name] = _draw(distribution, name, key=key, stream=stream, runs=runs) if alone else together[name]
+    for name, rows in (table or {}).items():
+        found[name] = rows[runs]
     return found
 
 

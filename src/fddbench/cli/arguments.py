@@ -26,7 +26,10 @@ def parser() -> argparse.ArgumentParser:
     subs = top.add_subparsers(metavar="COMMAND")
 
     run = _add(subs, "run", commands.run)
-    _campaign(run)
+    run.add_argument(
+        "campaigns", type=Path, nargs="+", metavar="CAMPAIGN.yaml", help="campaign files, or names of shipped ones"
+    )
+    _set(run)
     run.add_argument(
         "--out", type=Path, metavar="DIR", help="folder of results (default: results/<name of the campaign>)"
     )
@@ -43,6 +46,7 @@ def parser() -> argparse.ArgumentParser:
 
     _reading(subs)
     _looking(subs)
+    _verify(_add(subs, "verify", looking.verify))
 
     _counting(subs)
     cost = _add(subs, "cost", commands.cost)
@@ -74,7 +78,10 @@ def _add(subs, name: str, command: Callable[[argparse.Namespace], int]) -> argpa
     paragraphs = cleandoc(command.__doc__ or "").split("\n\n")
     text = "\n\n".join(fill(" ".join(each.split()), _WIDTH) for each in paragraphs)
     added: argparse.ArgumentParser = subs.add_parser(
-        name, help=paragraphs[0], description=text, formatter_class=argparse.RawDescriptionHelpFormatter
+        name,
+        help=paragraphs[0].replace("%", "%%"),
+        description=text,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     added.set_defaults(command=command)
     return added
@@ -104,6 +111,10 @@ def _counting(subs) -> None:  # type: ignore[no-untyped-def]
         "--by", action="append", default=[], metavar="COLUMN", help="split by this column (may be repeated)"
     )
     table.add_argument("--output", type=Path, metavar="FILE", help="file to write (default: print it)")
+
+    pod = _add(subs, "pod", counting.pod)
+    pod.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+    pod.add_argument("--size", default="", metavar="COLUMN", help="size of the fault (default: every one that differs)")
 
     compare = _add(subs, "compare", counting.compare)
     compare.add_argument("folder", type=Path, metavar="A", help="folder of results")
@@ -146,6 +157,14 @@ def _looking(subs) -> None:  # type: ignore[no-untyped-def]
     )
 
 
+def _verify(command: argparse.ArgumentParser) -> None:
+    command.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+    command.add_argument("--refly", type=_flights, default=0, metavar="N", help="fly so many of its flights again")
+    command.add_argument(
+        "--seed", type=int, metavar="N", help="of the draw of these flights (default: another every time)"
+    )
+
+
 def _asking(subs) -> None:  # type: ignore[no-untyped-def]
     """Commands that tell what there is, and that give something to start from."""
     ask = _add(subs, "list", commands.list_)
@@ -169,6 +188,10 @@ def _campaign(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "campaign", type=Path, metavar="CAMPAIGN.yaml", help="campaign file, or the name of a shipped one"
     )
+    _set(command)
+
+
+def _set(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--set", action="append", default=[], metavar="PATH=VALUE", dest="overrides",
         help="change a value of the campaign, e.g. dispersions.monte_carlo.runs=10 (may be repeated)",

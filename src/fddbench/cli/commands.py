@@ -15,15 +15,43 @@ if TYPE_CHECKING:
 __all__ = ["bound", "check", "cost", "finding", "init", "list_", "report", "run", "schema", "scores"]
 
 
-def run(args: argparse.Namespace) -> int:
-    """Fly a campaign and write its tables.
+_INTERRUPTED = 130
 
-    Goes on where an earlier run of the same campaign stopped. Ctrl-C stops after saving what is finished.
+
+def run(args: argparse.Namespace) -> int:
+    """Fly campaigns and write their tables.
+
+    Goes on where an earlier run of the same campaign stopped. Ctrl-C stops after saving what is finished. Of several campaigns
+    one with a mistake does not keep the others from flying; the exit code is the worst of theirs.
     """
+    if len(args.campaigns) == 1:
+        return _run(args.campaigns[0], args)
+    if args.out is not None:
+        raise FddbenchError("--out names the folder of one campaign; several go into results/<name of each>")
+    codes: dict[Path, int] = {}
+    for path in args.campaigns:
+        print(f"== {path}")
+        try:
+            codes[path] = _run(path, args)
+        except FddbenchError as error:
+            print(f"fddbench: {error}", file=sys.stderr)
+            codes[path] = 2
+        if codes[path] == _INTERRUPTED:
+            return _INTERRUPTED
+        print()
+    words = {0: "done", 1: "done, some flights failed", 2: "not flown, see above"}
+    width = max(len(str(path)) for path in codes)
+    for path, code in codes.items():
+        print(f"{path!s:<{width}}  {words[code]}")
+    return max(codes.values())
+
+
+def _run(path: Path, args: argparse.Namespace) -> int:
+    """Fly one campaign."""
     from fddbench.api import campaigns
     from fddbench.cli.progress import shown
 
-    campaign = campaigns.read(args.campaign, args.overrides)
+    campaign = campaigns.read(path, args.overrides)
     kept: list[tuple[pd.DataFrame, pd.DataFrame]] = []
     with shown(campaign.name, quiet=args.quiet) as progress:
         report = campaigns.run(
@@ -44,7 +72,7 @@ def run(args: argparse.Namespace) -> int:
             "Run the same command again to continue.",
             file=sys.stderr,
         )
-        return 130
+        return _INTERRUPTED
     _summary(folder, kept[0], wide=args.wide, failed=report.failed_rows > 0)
     again = f", {report.continued} found done" if report.continued else ""
     print(f"\n{report.flights} flights flown{again} in {report.wall_s:.1f} s; results in {folder}")

@@ -84,6 +84,7 @@ def _paths(prefix: str, pattern: str) -> list[str]:
 
 _COMPLETERS: dict[str, Callable[..., list[str]]] = {
     "campaign": _campaigns,
+    "campaigns": _campaigns,
     "design": _designs,
     "detector": _designs,
     "folder": _results,

@@ -5,7 +5,7 @@ import sys
 
 from fddbench.errors import FddbenchError
 
-__all__ = ["FORMATS", "compare", "table"]
+__all__ = ["FORMATS", "compare", "pod", "table"]
 
 FORMATS = ("csv", "parquet", "latex", "markdown", "html")
 
@@ -29,6 +29,26 @@ def compare(args: argparse.Namespace) -> int:
         what = f"{line['measure']} of {line['detector_b']} in {line['scenario']}"
         print(f"fddbench: got worse: {what}, {line['a']:.4g} to {line['b']:.4g}", file=sys.stderr)
     return 1
+
+
+def pod(args: argparse.Namespace) -> int:
+    """Print the probability of detection against the size of a fault: the sizes found in 50 and in 90 % of flights.
+
+    A curve for every scenario and detector whose fault has a size that is drawn or swept, with a floor and a ceiling where the
+    flights want them, and the upper end of the size at 90 % at 95 % confidence, by run.
+    """
+    from fddbench.api.detection_curves import pod as curves
+
+    lines = curves(args.folder, args.size).to_dict("records")
+    cells = [("scenario", "detector", "size", "flights", "found", "")]
+    cells += [
+        (line["scenario"], line["detector"], line["size"], str(line["flights"]), str(line["right"]), line["about"])
+        for line in lines
+    ]
+    widths = [max(len(str(row[i])) for row in cells) for i in range(len(cells[0]))]
+    for row in cells:
+        print("  ".join(str(value).ljust(width) for value, width in zip(row, widths, strict=True)).rstrip())
+    return 0
 
 
 def table(args: argparse.Namespace) -> int:

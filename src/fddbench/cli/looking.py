@@ -1,10 +1,11 @@
 """Commands that look at single flights of a folder of results."""
 
 import argparse
+import sys
 
 from fddbench.errors import FddbenchError
 
-__all__ = ["replay", "worst"]
+__all__ = ["replay", "verify", "worst"]
 
 
 def replay(args: argparse.Namespace) -> int:
@@ -60,3 +61,26 @@ def worst(args: argparse.Namespace) -> int:
         print("  ".join(str(line[name]).ljust(width) for name, width in widths.items()).rstrip())
     print(f"\nnext: fddbench replay {args.folder} {table['case'].iloc[0]} --plot flight.html")
     return 0
+
+
+def verify(args: argparse.Namespace) -> int:
+    """Check a folder of results, your own or somebody else's: every file, every line, every checksum.
+
+    With --refly some of its flights are flown again, drawn at random, and compared bit for bit; that runs the plug-ins that lie
+    in it. Ends with 1 when something is wrong. Nothing is written.
+    """
+    from fddbench.api.verifying import verify as verified
+
+    found = verified(
+        args.folder, refly=args.refly, seed=args.seed, notice=lambda text: print(f"fddbench: {text}", file=sys.stderr)
+    )
+    for text in (*found.wrong, *found.different):
+        print(text)
+    if found.wrong and args.refly:
+        print("nothing was flown again: mend the folder first")
+    if found.flights:
+        who = f"; flown by another program: {found.other_program}" if found.other_program else ""
+        print(f"{found.flights} flights flown again, {found.rows} rows, {len(found.different)} otherwise{who}")
+    if found.sound:
+        print(f"{args.folder} is sound and whole")
+    return 0 if found.sound else 1

@@ -19,7 +19,7 @@ from fddbench.design.recipes.recipe import Made, Recipe, RecipeError
 from fddbench.designs.design_file import DesignFile, design_text
 from fddbench.errors import DesignError
 
-__all__ = ["Cooked", "cook"]
+__all__ = ["Cooked", "cook", "recipe_of"]
 
 
 @dataclass(frozen=True)
@@ -40,18 +40,28 @@ def cook(path: Path) -> Cooked:
     FddbenchError
         The file has no recipe, mistakes in it, or the recipe gives no design.
     """
-    document = read_yaml(path)
-    if not isinstance(document.data, dict) or not isinstance(document.get("recipe"), dict):
-        raise DesignError(
-            f"{path} has no recipe. Add `recipe:` with the keys of its kind; the shipped detectors/hinf_identity.yaml and "
-            "detectors/lpv_filter_approx.yaml are examples."
-        )
+    document = _document(path)
     recipe = _recipe(path, document)
     made = _made(recipe.in_folder(path.parent), document)
     data = {key: document.data[key] for key in ("kind", "about", "source") if key in document.data}
     written = {**document.data["recipe"], "found": dict(made.found)}
     data |= {"tuned_on": None, "recipe": written, "gains": dict(made.gains)}
     return Cooked(design_text(data), made.gains, made.found, recipe.found)
+
+
+def recipe_of(path: Path) -> Recipe:
+    """Recipe of a design file, with every mistake of the file told."""
+    return _recipe(path, _document(path)).in_folder(path.parent)
+
+
+def _document(path: Path) -> Document:
+    document = read_yaml(path)
+    if not isinstance(document.data, dict) or not isinstance(document.get("recipe"), dict):
+        raise DesignError(
+            f"{path} has no recipe. Add `recipe:` with the keys of its kind; the shipped detectors/hinf_identity.yaml and "
+            "detectors/lpv_filter_approx.yaml are examples."
+        )
+    return document
 
 
 def _made(recipe: Recipe, document: Document) -> Made:

@@ -11,6 +11,7 @@ from fddbench.blocks.block import NO_DRAWS, NOTHING
 from fddbench.blocks.drawn import Draws
 from fddbench.blocks.layout import Layout, Nothing, Row, Rows
 from fddbench.blocks.linear import total
+from fddbench.designs.hold import Hold
 from fddbench.designs.tracing import Obstacle, obstacle
 from fddbench.errors import DesignError
 from fddbench.interfaces import Bus, Verdict
@@ -26,16 +27,18 @@ class Adapted:
     detector : Detector
         With what `fddbench.interfaces.Detector` asks for; what it leaves out is filled in here, nothing is repaired.
     bus : Bus
-        What it was made for.
+        What it is fed with.
+    every : int
+        It steps at every so manieth sample of it, and its decision holds between.
     """
 
     constants: Layout[Any] = NOTHING
 
-    def __init__(self, detector: Any, bus: Bus) -> None:
-        self.detector, self.bus = detector, bus
+    def __init__(self, detector: Any, bus: Bus, every: int = 1) -> None:
+        self.detector, self.bus, self.every = detector, bus, every
         states = getattr(detector, "states", None)
         self.has_states = isinstance(states, Layout)
-        self.states: Layout[Any] = states if isinstance(states, Layout) else NOTHING
+        self.own_states: Layout[Any] = states if isinstance(states, Layout) else NOTHING
         self.full = getattr(detector, "draws", None) is not None
         self.draws: Draws[Any] = getattr(detector, "draws", NO_DRAWS)
         self.recorded: tuple[str, ...] = getattr(detector, "recorded", ())
@@ -44,6 +47,26 @@ class Adapted:
         self.sees: str = str(getattr(detector, "sees", "sensors"))
         self.estimates: str | None = getattr(detector, "estimates", None)
         self.batched: bool = bool(getattr(detector, "batched", False))
+
+    @cached_property
+    def hold(self) -> Hold | None:
+        """What holds its decisions between steps; None where it steps at every sample."""
+        if self.every == 1:
+            return None
+        return Hold(
+            self.every, self.own_states, self.bus.names, self.watches, isolates=self.isolates,
+            estimates=self.estimates is not None, sizes=self.estimates == "sites", recorded=self.recorded,
+        )  # fmt: skip
+
+    @property
+    def states(self) -> Layout[Any]:
+        """Layout of what is kept from sample to sample: its own, and what is held."""
+        return self.hold.states if self.hold else self.own_states
+
+    @property
+    def at_every_sample(self) -> "Adapted":
+        """The detector alone, as it steps on its own clock."""
+        return self if self.every == 1 else Adapted(self.detector, self.bus)
 
     @cached_property
     def obstacle(self) -> Obstacle:
@@ -62,10 +85,17 @@ class Adapted:
 
     def start(self, c: Nothing) -> Any:
         """State before the first sample."""
-        return self.detector.start(c) if self.full else self.detector.start()
+        own = self.detector.start(c) if self.full else self.detector.start()
+        return self.hold.start(own) if self.hold else own
 
     def step(self, x: Any, c: Nothing, n: Any, measured: SimpleNamespace) -> tuple[Any, Verdict]:
         """State after this sample, and the verdict on it."""
+        if self.hold:
+            return self.hold.step(x, lambda own: self._own_step(own, c, n, measured))
+        return self._own_step(x, c, n, measured)
+
+    def _own_step(self, x: Any, c: Nothing, n: Any, measured: SimpleNamespace) -> tuple[Any, Verdict]:
+        """One step of the detector, its verdict on all sites."""
         own = SimpleNamespace(**vars(measured))
         given = self.detector.step(x, c, n, own) if self.full else self.detector.step(x, own)
         if not isinstance(given, tuple) or len(given) != 2:

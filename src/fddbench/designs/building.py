@@ -28,22 +28,27 @@ def build_detectors(designs: Sequence[Design], bus: Bus, samples: Samples | None
             built = design.build(bus)
         except DesignError as error:
             wrong = f"{design.kind.name} {error}" if str(error).startswith("needs ") else str(error)
+            wrong += (
+                f" (with every: {design.every} its samples are {design.sample_s(bus):g} s apart)"
+                if design.every > 1
+                else ""
+            )
         except BaseException as error:  # a plug-in may raise anything
             raise_interrupt(error)
             wrong = f"from_design raised {reason_of(error)}{place_in(error, design.kind.member, 'from_design')}"
         else:
-            wrong = _unsound(found, design.name, built, bus, samples)
+            wrong = _unsound(found, design, built, bus, samples)
         if wrong:
             mistakes.append(Mistake(design.where, f"design {design.name!r} ({design.path}): {wrong}"))
     refuse(mistakes)
     return found
 
 
-def _unsound(found: dict[str, Adapted], name: str, built: Detector, bus: Bus, samples: Samples | None) -> str:
+def _unsound(found: dict[str, Adapted], design: Design, built: Detector, bus: Bus, samples: Samples | None) -> str:
     """What is wrong with a detector, "" for nothing; then it is among those found."""
     try:
-        found[name] = Adapted(built, bus)
+        found[design.name] = Adapted(built, bus, design.every)
     except BaseException as error:
         raise_interrupt(error)
         return f"it is no detector: {reason_of(error)}"
-    return unsound(found[name], samples)
+    return unsound(found[design.name], samples)

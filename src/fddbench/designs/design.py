@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -80,6 +80,8 @@ class Design:
         Gains as the file writes them.
     swept : SweptGain or None
         Of a variant, what differs from the file.
+    every : int
+        It steps at every so manieth sample.
     """
 
     name: str
@@ -97,14 +99,19 @@ class Design:
     members: Mapping[str, Kind] = field(default_factory=dict)
     written: Mapping[str, Any] = field(default_factory=dict, repr=False)
     swept: SweptGain | None = None
+    every: int = 1
 
     @property
     def base(self) -> str:
         """Name of the file's design, also of a variant."""
         return self.path.stem
 
+    def sample_s(self, bus: Bus) -> float:
+        """Time between two of its steps [s]."""
+        return bus.sample_s if self.every == 1 else round(self.every * bus.sample_s, 12)
+
     def build(self, bus: Bus) -> Detector:
-        """Detector for a bus.
+        """Detector for a bus, as it steps on its own clock.
 
         Raises
         ------
@@ -113,7 +120,8 @@ class Design:
         """
         with noticed_reads(self.path.parent) as read:
             named = {key: kind.member for key, kind in self.members.items()}
-            detector: Detector = self.kind.member.from_design(self.gains, bus, **named)
+            own = replace(bus, sample_s=self.sample_s(bus))
+            detector: Detector = self.kind.member.from_design(self.gains, own, **named)
         stray = sorted(set(read) - set(self.files))
         if stray and self.files:
             raise DesignError(
@@ -170,6 +178,7 @@ def read_design(path: Path, *, where: str = "") -> Design:
         gamma=_gamma(written.recipe),
         members=members,
         written=document.mapping("gains"),
+        every=written.every,
     )
 
 

@@ -1,13 +1,17 @@
 """The keys of a design file and what values they take."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Annotated, Any
 
 import yaml
+from pydantic import Field
 
 from fddbench.campaign.rules.model import Name, Seed, Strict
 
 __all__ = ["DesignFile", "TunedOn", "design_text"]
+
+MOST_SLOW = 100
+"""Samples between two steps of a detector, at most."""
 
 
 class TunedOn(Strict):
@@ -36,6 +40,8 @@ class DesignFile(Strict):
         Where the numbers come from.
     tuned_on : list of TunedOn, or None
         Flights the numbers were chosen on.
+    every : int
+        Steps at every so manieth sample and holds its decision between; its times are counted on that slower clock.
     recipe : mapping, or None
         What ``fddbench design`` makes the gains from, and what it found.
     gains : mapping
@@ -46,6 +52,7 @@ class DesignFile(Strict):
     about: str = ""
     source: str
     tuned_on: tuple[TunedOn, ...] | None
+    every: Annotated[int, Field(ge=1, le=MOST_SLOW)] = 1
     recipe: dict[str, Any] | None = None
     gains: dict[str, Any]
 

@@ -72,9 +72,9 @@ class OneFlight:
         """State of a flight before its first sample: whatever the detector gives, rows of a `Layout` at their length."""
         own = self.adapted
         begun = own.detector.start(Nothing()) if own.full else own.detector.start()
-        if not own.has_states:
-            return begun
-        return own.states.unpack(own.states.pack(begun)[:, 0].copy())
+        if own.has_states:
+            begun = own.own_states.unpack(own.own_states.pack(begun)[:, 0].copy())
+        return begun if own.every == 1 else (0, begun, [])
 
     def step(self, state: Any, drawn: Any, measured: SimpleNamespace) -> tuple[Any, list[float]]:
         """State after one sample of one flight, and the decision on it.
@@ -84,6 +84,15 @@ class OneFlight:
         BaseException
             Whatever the detector raises; DesignError for a decision that is none.
         """
+        if self.adapted.every == 1:
+            return self._own_step(state, drawn, measured)
+        since, kept, held = state
+        if since == 0:
+            kept, held = self._own_step(kept, drawn, measured)
+        return ((since + 1) % self.adapted.every, kept, held), held
+
+    def _own_step(self, state: Any, drawn: Any, measured: SimpleNamespace) -> tuple[Any, list[float]]:
+        """One step of the detector."""
         own = self.adapted
         given = own.detector.step(state, Nothing(), drawn, measured) if own.full else own.detector.step(state, measured)
         if not isinstance(given, tuple) or len(given) != 2:

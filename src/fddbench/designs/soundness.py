@@ -30,6 +30,7 @@ def unsound(adapted: Adapted, samples: Samples | None = None) -> str:
     detector itself: its result would depend on what flew before. A detector of ordinary Python is shown the first samples of
     real flights, `samples`, since it may rightly raise on others.
     """
+    adapted = adapted.at_every_sample
     named = adapted.recorded
     if not isinstance(named, tuple) or not all(isinstance(name, str) for name in named):
         return "it needs an attribute `recorded`, a tuple of the names of what it shows, () for nothing"

@@ -81,6 +81,7 @@ class RotatingGust:
 
     def __init__(self, gust: LateralGust) -> None:
         self.gust, self.sigma_m_s = gust, gust.sigma_m_s
+        self.about = f"Dryden's lateral gust of {gust.sigma_m_s:g} m/s, with its rotations"
 
     def prepare(self, normals: RotatingDraws, meets: Encounter, sample_s: float) -> RotatingConstants:
         """Constants of flights."""

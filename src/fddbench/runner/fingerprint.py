@@ -27,6 +27,9 @@ def fingerprint_of(campaign: Campaign) -> Fingerprint:
     behind = sources.foreign(_members(campaign), files)
     # the compiler at hand, used or not: which of the two back ends flies is no part of any result
     bits = {"numpy": version_of("numpy"), "llvmlite": version_of("llvmlite") if llvm.available() else "none"}
+    drawn = campaign.dispersions.monte_carlo
+    if drawn is not None and not drawn.plain:
+        bits["scipy"] = version_of("scipy")  # its low-discrepancy points and its bell curve
     return Fingerprint(
         campaign_sha256=campaign.sha256,
         files={name: sha256(text).hexdigest() for name, text in sorted(files.items()) if name != "campaign.yaml"},

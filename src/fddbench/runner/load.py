@@ -29,25 +29,33 @@ class DetectorLoad:
     Attributes
     ----------
     cost : Cost or None
-        Operations, state and tables; None for a detector that cannot be traced.
+        Operations, state and tables of a step; None for a detector that cannot be traced.
     nanoseconds : float or None
-        Time of a step of one flight in compiled code on this machine [ns], the fastest of several; None without a compiler.
+        Time of a sample of one flight in compiled code on this machine [ns], the fastest of several; None without a compiler.
     opaque : str
         Why it cannot be traced; "" when it can.
+    every : int
+        It steps at every so manieth sample.
     """
 
     cost: Cost | None
     nanoseconds: float | None
     opaque: str = ""
+    every: int = 1
+
+    @property
+    def flops_a_sample(self) -> float | None:
+        """Floating-point operations a sample of the benchmark, its steps spread over the samples between them."""
+        return None if self.cost is None else self.cost.flops / self.every
 
 
 def detector_load(detector: Adapted, bus: Bus, *, timed: bool = True) -> DetectorLoad:
     """Count the operations of one step, and time it unless told not to."""
     if detector.opaque:
-        return DetectorLoad(cost=None, nanoseconds=None, opaque=detector.opaque)
+        return DetectorLoad(cost=None, nanoseconds=None, opaque=detector.opaque, every=detector.every)
     nanoseconds = _nanoseconds(detector, bus) if timed and llvm.available() else None
-    program = detector_program(detector, bus).keep("state", "declared", "alarm", "residual")
-    return DetectorLoad(cost=cost(program), nanoseconds=nanoseconds)
+    program = detector_program(detector.at_every_sample, bus).keep("state", "declared", "alarm", "residual")
+    return DetectorLoad(cost=cost(program), nanoseconds=nanoseconds, every=detector.every)
 
 
 def _nanoseconds(detector: Adapted, bus: Bus) -> float:
@@ -86,8 +94,9 @@ def in_words(load: DetectorLoad) -> str:
     if load.cost is None:
         return f"opaque, runs in Python: {load.opaque}"
     timed = "" if load.nanoseconds is None else f"; {load.nanoseconds:.0f} ns in compiled code here"
+    slow = f", a step every {load.every} samples: {load.flops_a_sample:.4g} a sample" if load.every > 1 else ""
     return (
-        f"{load.cost.flops} floating-point operations a step, {load.cost.multiply_adds} of them multiply-add pairs; "
+        f"{load.cost.flops} floating-point operations a step{slow}, {load.cost.multiply_adds} of them multiply-add pairs; "
         f"state {load.cost.state_bytes} B, tables {load.cost.table_bytes} B{timed}"
     )
 

@@ -156,7 +156,7 @@ def _made_again(assembly: Assembly, name: str) -> Adapted:
     own = assembly.detectors[name]
     for design in assembly.plan.campaign.designs:
         if design.name == name:
-            made = Adapted(design.build(own.bus), own.bus)
+            made = Adapted(design.build(own.bus), own.bus, design.every)
             return made if type(made.detector) is type(own.detector) else own
     return own
 

@@ -1,5 +1,6 @@
 """The published lateral LPV aircraft: its four parameters as measured, and its model in terms of what sensors give."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import ClassVar
 
@@ -8,7 +9,7 @@ import numpy as np
 from fddbench.blocks.layout import Rows
 from fddbench.flight.lateral_lpv import SCHEDULING, lateral_lpv
 from fddbench.interfaces import AffineModel, Channel
-from fddbench.units import RAD_PER_DEG
+from fddbench.units import DEG_PER_RAD, RAD_PER_DEG
 
 __all__ = ["LateralLpvParameters"]
 
@@ -44,6 +45,26 @@ def _published() -> AffineModel:
     return AffineModel(A=tables["A"], B=tables["B"], C=np.eye(4), outputs=outputs, inputs=inputs, box=np.array(_box()))
 
 
+def _yaw_moment() -> AffineModel:
+    """The yaw-moment row alone, in degrees: state r, three sensors of it, and what drives it as inputs.
+
+    The side velocity through the air is measured, so the gust is measured with it and no disturbance.
+    """
+    whole = _published()
+    unit = np.array([DEG_PER_RAD, 1.0, *[DEG_PER_RAD] * whole.B.shape[2]])
+    moments = np.concatenate([whole.A[:, 3:, 1:3], whole.B[:, 3:]], axis=2) * unit
+    driven = (replace(whole.outputs[1], held=False), Channel(signal="p_deg_s"))
+    sensors = tuple(Channel(signal="r_deg_s", row=row) for row in range(3))
+    return AffineModel(
+        A=whole.A[:, 3:, 3:],
+        B=moments,
+        C=np.ones((3, 1)),
+        outputs=sensors,
+        inputs=(*driven, *whole.inputs),
+        box=whole.box,
+    )
+
+
 class LateralLpvParameters:
     """Mass, centre of gravity, altitude and airspeed as they are measured, not clipped to the published box."""
 
@@ -51,7 +72,7 @@ class LateralLpvParameters:
     signals = SCHEDULING
     parameters = SCHEDULING
     box = np.array(_box())
-    models: ClassVar = {"published": _published}
+    models: ClassVar = {"published": _published, "yaw_moment": _yaw_moment}
 
     def rho(self, measured: SimpleNamespace) -> Rows:
         """Parameters in their units, (4, n_cases)."""

@@ -227,6 +227,8 @@ def test_law_and_detectors_get_measured_parameters_and_the_plant_keeps_the_true_
     alone = bench.fly(bench.loop(), 1, 7.0, manoeuvres="turn_coordination_1", mass_error_percent=10.0)
     assert np.array_equal(alone["phi_true_deg"][:, 0], now["phi_true_deg"][:, 0])
     assert not np.array_equal(now["phi_true_deg"][:, 1], now["phi_true_deg"][:, 0])
+    beta = bench.fly(bench.loop(), 2, 0.0, beta_error_deg=[0.0, 0.5])["beta_deg"]
+    assert (beta[0, 1] - beta[0, 0], beta[0, 0]) == (0.5, 0.0)
 
 
 def test_bus_names_what_a_step_measures(bench):

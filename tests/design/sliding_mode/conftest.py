@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fddbench.design.geometric.affine import Box
-from fddbench.design.sliding_mode import FaultyPlant, Weights, with_sensor_faults
+from fddbench.design.sliding_mode import FaultyPlant, Weights, synthesise, with_sensor_faults
 from fddbench.flight.lateral_lpv import lateral_lpv
 
 
@@ -30,3 +30,9 @@ def paper():
         fault=np.ones(1),
     )  # fmt: skip
     return Paper(plant, weights)
+
+
+@pytest.fixture(scope="session")
+def best(paper):
+    """The designed pair."""
+    return synthesise(paper.plant, paper.weights)

@@ -13,7 +13,7 @@ from fddbench.benchmarks.yaw_rate.unit_sites import P_UNITS, PHI_UNITS
 from fddbench.benchmarks.yaw_rate.voters import Voted, Voters
 from fddbench.blocks.block import Part
 from fddbench.blocks.drawn import Draws
-from fddbench.blocks.layout import Layout, Nothing, Row, Rows, record
+from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, record
 from fddbench.flight.actuators import ActuatorState
 from fddbench.flight.atmosphere import FT_M
 from fddbench.flight.wind import Encounter, Wind
@@ -39,12 +39,13 @@ class LoopState:
 
 @record
 class LoopConstants:
-    """Constants of the parts that have any."""
+    """Constants of the parts that have any, and the error of the measured sideslip."""
 
     plant: Part
     gust: Part
     sensors: Part
     faults: Broken
+    beta_error_deg: Row
 
 
 @record
@@ -132,6 +133,7 @@ class LateralLoop:
                 gust=gust.constants.shape,
                 sensors=self.sensors.constants.shape,
                 faults=self.breaking.constants.shape,
+                beta_error_deg=ROW,
             )
         )
         self.draws: Draws[LoopDraws] = Draws(
@@ -164,6 +166,7 @@ class LateralLoop:
             gust=gust,
             sensors=self.sensors.prepare(flights.normals.sensors),
             faults=self.breaking.prepare(flights.faults),
+            beta_error_deg=flights.parameters["beta_error_deg"],
         )
         return Prepared(constants=constants, infeasible_reason=plant.infeasible_reason)
 
@@ -194,7 +197,7 @@ class LateralLoop:
         healthy = {"r_deg_s": readings.r_deg_s, P_UNITS: readings.p_deg_s, PHI_UNITS: readings.phi_deg}
         units = {name: breaking.broken(name, healthy[name]) for name in ("r_deg_s", *self.of_units)}
         voters, voted = self.voters.step(x.voters, units, declared)
-        measured = _measured(motion, readings, units, voted, surface_deg)
+        measured = _measured(motion, c, readings, units, voted, surface_deg)
         law, orders_deg = self.law.step(x.law, Nothing(), Nothing(), measured, motion.bank_command_deg)
         actuators, _ = self.actuators.step(x.actuators, Nothing(), Nothing(), orders_deg, *self.plant.travel(c.plant))
         after = LoopState(
@@ -221,12 +224,17 @@ class LateralLoop:
 
 
 def _measured(
-    motion: Motion, readings: Readings, units: Mapping[str, Rows], voted: Mapping[str, Row], surface_deg: Rows
+    motion: Motion,
+    c: LoopConstants,
+    readings: Readings,
+    units: Mapping[str, Rows],
+    voted: Mapping[str, Row],
+    surface_deg: Rows,
 ) -> SimpleNamespace:
     """The bus at this sample; `units` are redundant signals with their faults."""
     return SimpleNamespace(
         phi_deg=voted.get(PHI_UNITS, readings.phi_deg),
-        beta_deg=readings.beta_deg,
+        beta_deg=readings.beta_deg + c.beta_error_deg,
         p_deg_s=voted.get(P_UNITS, readings.p_deg_s),
         r_voted_deg_s=voted["r_deg_s"],
         surface_deg=surface_deg,

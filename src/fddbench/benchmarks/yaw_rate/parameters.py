@@ -42,6 +42,13 @@ PARAMETERS: tuple[Parameter, ...] = (
     _error("x_cg_error_percent", "centre of gravity"),
     _error("altitude_error_percent", "altitude"),
     _error("v_cas_error_percent", "calibrated airspeed"),
+    Parameter(
+        name="beta_error_deg",
+        about="error of the measured sideslip: measured = true + error",
+        default=0.0,
+        low=-5.0,
+        high=5.0,
+    ),
     Parameter(name="gust_scale_ratio", about="share of the gust of the chosen wind", default=1.0, low=0.0, high=10.0),
     gust_rotation(0.0),
     Parameter(

@@ -76,18 +76,32 @@ class Distribution(Strict):
 
 
 class MonteCarlo(BaseModel):
-    """Flights drawn at random; every key besides `runs` is a parameter.
+    """Flights drawn at random; every other key is a parameter.
 
     Attributes
     ----------
     runs : int
         Draws for each point of grid and sequence.
+    sampling : {"random", "sobol", "halton", "lhs"}
+        Independent draws; low-discrepancy points by the number of the run; a Latin hypercube of all runs, which fixes them.
+    table : str, optional
+        CSV or Parquet file beside the campaign with explicit cases: a column a parameter, a row a run.
+    correlation : list of [parameter, parameter, coefficient]
+        Of the bell curves behind two draws (a Gaussian copula).
     """
 
     model_config = ConfigDict(extra="allow", frozen=True)
     __pydantic_extra__: dict[str, Distribution]
 
     runs: Count
+    sampling: Literal["random", "sobol", "halton", "lhs"] = "random"
+    table: str | None = None
+    correlation: tuple[tuple[str, str, Number], ...] = ()
+
+    @property
+    def plain(self) -> bool:
+        """Whether every parameter is drawn by itself, at random."""
+        return self.sampling == "random" and self.table is None and not self.correlation
 
     @property
     def parameters(self) -> dict[str, Distribution]:

@@ -3,14 +3,18 @@
 from collections.abc import Iterator
 from math import erf, sqrt
 
+import numpy as np
+
 from fddbench.campaign.reading.document import Address, Document
-from fddbench.campaign.rules.model import CampaignFile, Distribution, TruncatedNormal
+from fddbench.campaign.rules.model import CampaignFile, Distribution, MonteCarlo, TruncatedNormal
 from fddbench.campaign.rules.wording import unit_of
+from fddbench.campaign.shares import correlation_matrix
 from fddbench.errors import Mistake
 from fddbench.interfaces import Parameter, Plant
 
 __all__ = ["ranges"]
 
+_LEAST_EIGENVALUE = 1e-9
 _LEAST_PROBABILITY = 0.1
 """Of a truncated normal's window: what is drawn again more than ten times on average was meant otherwise."""
 
@@ -32,6 +36,50 @@ def ranges(document: Document, written: CampaignFile, plant: Plant) -> Iterator[
     if dispersions.monte_carlo:
         for name, distribution in dispersions.monte_carlo.parameters.items():
             yield from _distribution(document, ("dispersions", "monte_carlo", name), distribution, known[name])
+        yield from _correlations(document, dispersions.monte_carlo)
+        yield from _fixed_runs(document, written)
+
+
+def _correlations(document: Document, drawn: MonteCarlo) -> Iterator[Mistake]:
+    """Correlations of what is not drawn, that no two numbers have, or that no set of numbers has together."""
+    at: Address = ("dispersions", "monte_carlo", "correlation")
+    pairs: list[frozenset[str]] = []
+    for number, (*pair, value) in enumerate(drawn.correlation):
+        for place, name in enumerate(pair):
+            if name not in drawn.parameters:
+                known = ", ".join(drawn.parameters) or "none"
+                yield document.mistake((*at, number, place), f"{name!r} is not drawn here; drawn are: {known}")
+        if len(set(pair)) < 2 or frozenset(pair) in pairs:
+            text = "a parameter is correlated with another one" if len(set(pair)) < 2 else "this pair is there already"
+            yield document.mistake((*at, number), f"{text}; name each pair once")
+        if not -1.0 < value < 1.0:
+            yield document.mistake((*at, number, 2), f"a correlation lies between -1 and 1, got {value:g}")
+        pairs.append(frozenset(pair))
+    names = sorted(set().union(*pairs)) if pairs else []
+    sound = all(len(pair) == 2 for pair in pairs) and all(-1.0 < value < 1.0 for *_, value in drawn.correlation)
+    if names and sound and np.linalg.eigvalsh(correlation_matrix(names, drawn.correlation)).min() < _LEAST_EIGENVALUE:
+        message = (
+            "no numbers have all these correlations at once (the matrix is not positive definite); make them smaller"
+        )
+        yield document.mistake(at, message, key=True)
+
+
+def _fixed_runs(document: Document, written: CampaignFile) -> Iterator[Mistake]:
+    """Scenarios with runs of their own where a sample is one whole, or longer than a table."""
+    drawn = written.dispersions.monte_carlo
+    if drawn is None or (drawn.sampling != "lhs" and drawn.table is None):
+        return
+    for number, entry in enumerate(written.scenarios):
+        if entry.runs is not None and (
+            entry.runs > drawn.runs or (drawn.sampling == "lhs" and entry.runs < drawn.runs)
+        ):
+            what = (
+                "a Latin hypercube is one sample of all runs"
+                if drawn.sampling == "lhs"
+                else "the table has no more rows"
+            )
+            message = f"{what}: dispersions.monte_carlo.runs is {drawn.runs}, got {entry.runs}; remove this key"
+            yield document.mistake(("scenarios", number, "runs"), message)
 
 
 def _twice(document: Document, written: CampaignFile) -> Iterator[Mistake]:

@@ -7,6 +7,7 @@ from typing import Any
 
 from fddbench import kinds
 from fddbench.campaign.reading.document import Address, Document
+from fddbench.campaign.rules.model import MonteCarlo
 from fddbench.errors import FddbenchError, Mistake, did_you_mean
 from fddbench.interfaces import Benchmark, Choice, Plant
 
@@ -86,8 +87,13 @@ def _of_data(reads: Callable[[Path], Any], name: str, folder: Path) -> tuple[Any
     return reads(path), {name: path.read_bytes()}
 
 
-def unknown_names(document: Document, benchmark: Benchmark, plant: Plant) -> Iterator[Mistake]:
-    """Every name that the benchmark does not know; reads the raw data, so that other mistakes do not hide these."""
+def unknown_names(
+    document: Document, benchmark: Benchmark, plant: Plant, chosen: Mapping[str, Any]
+) -> Iterator[Mistake]:
+    """Every name that the benchmark does not know; reads the raw data, so that other mistakes do not hide these.
+
+    `chosen` are the members by the keys of the choices: a site that another option would bring is named with it.
+    """
     sites = [site.name for site in plant.sites]
     for scenario in range(len(document.items("scenarios"))):
         address: Address = ("scenarios", scenario)
@@ -95,7 +101,9 @@ def unknown_names(document: Document, benchmark: Benchmark, plant: Plant) -> Ite
         for fault in range(len(document.items(*address, "faults"))):
             named: Address = (*address, "faults", fault, "sites")
             for site in range(len(document.items(*named))):
-                yield from _unknown(document, (*named, site), sites, "fault site")
+                yield from _unknown(
+                    document, (*named, site), sites, "fault site", lambda name: _elsewhere(name, benchmark, chosen)
+                )
     yield from _unknown_parameters(document, benchmark, plant)
 
 
@@ -106,10 +114,30 @@ def _no_such(what: str, name: str, known: Iterable[str]) -> str:
     )
 
 
-def _unknown(document: Document, address: Address, known: Iterable[str], what: str) -> Iterator[Mistake]:
+def _unknown(
+    document: Document,
+    address: Address,
+    known: Iterable[str],
+    what: str,
+    elsewhere: Callable[[str], str] | None = None,
+) -> Iterator[Mistake]:
     name, names = document.get(*address), list(known)
     if isinstance(name, str) and name not in names:
-        yield document.mistake(address, _no_such(what, name, names))
+        message = ". ".join(filter(None, [_no_such(what, name, names), elsewhere(name) if elsewhere else ""]))
+        yield document.mistake(address, message)
+
+
+def _elsewhere(site: str, benchmark: Benchmark, chosen: Mapping[str, Any]) -> str:
+    """With which other option there is such a fault site; "" for none."""
+    for key, choice in benchmark.choices.items():
+        for name in choice.options:
+            try:
+                sites = benchmark.plant({**chosen, key: choice.options[name]}).sites
+            except Exception:  # a benchmark of somebody else's may raise anything; this is only a hint
+                continue
+            if any(one.name == site for one in sites):
+                return f"There is one with `{key}: {name}`"
+    return ""
 
 
 def _unknown_parameters(document: Document, benchmark: Benchmark, plant: Plant) -> Iterator[Mistake]:
@@ -118,7 +146,7 @@ def _unknown_parameters(document: Document, benchmark: Benchmark, plant: Plant) 
     for block in ("grid", "sequence", "monte_carlo"):
         for name in document.mapping("dispersions", block):
             address: Address = ("dispersions", block, name)
-            if (block, name) == ("monte_carlo", "runs"):
+            if block == "monte_carlo" and name in MonteCarlo.model_fields:
                 continue
             if name in plant.refused_parameters:
                 reason = plant.refused_parameters[name]

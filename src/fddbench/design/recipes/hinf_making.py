@@ -9,13 +9,15 @@ import numpy as np
 from fddbench import kinds
 from fddbench.design.bias_filter import bias_filter
 from fddbench.design.linearised import Freedom
+from fddbench.design.nominal_residuals import nominal_reference, observer_bank
 from fddbench.design.problem import Filter, augment, close
 from fddbench.design.proof import Proven
 from fddbench.design.recipes.hinf_entries import plant_of
+from fddbench.design.recipes.hinf_model import model_plants
 from fddbench.design.recipes.recipe import short
 from fddbench.design.reference_search import optimize_fixed_poles, optimize_reference
 from fddbench.design.robust_hinf import Design, synthesize
-from fddbench.design.uncertainty import NormBounded, Uncertainty, blocks_of
+from fddbench.design.uncertainty import NormBounded, Polytope, Uncertainty, blocks_of
 from fddbench.design.weights import Weights
 from fddbench.design.worst_case import worst_delta
 from fddbench.errors import DesignError
@@ -24,14 +26,23 @@ from fddbench.systems import StateSpace, UncertainPlant
 if TYPE_CHECKING:
     from fddbench.design.recipes.hinf_filter import HinfRecipe
 
-__all__ = ["gains_of", "made"]
+__all__ = ["gains_of", "made", "named_plant"]
 
 
-def made(recipe: "HinfRecipe") -> tuple[Filter, dict[str, Any]]:
-    """Filter of a recipe and what is known of it."""
-    plant = _plant(recipe.plant)
-    if recipe.method == "exact_inverse":
-        filter_ = _exact_inverse(plant)
+def made(recipe: "HinfRecipe") -> tuple[Filter, dict[str, Any], dict[str, Any]]:
+    """Filter of a recipe, what is known of it, and what its file says of signals (nothing for a plant with y and u)."""
+    if recipe.model is None:
+        return *_made(recipe, named_plant(recipe.plant or ""), NormBounded()), {}
+    plants = model_plants(recipe.model, recipe.beside)
+    several = Polytope(plants.vertices) if len(plants.vertices) > 1 else NormBounded()
+    filter_, found = _made(recipe, plants.vertices[0], several)
+    return filter_, {"vertices": len(plants.vertices)} | found, plants.keys
+
+
+def _made(recipe: "HinfRecipe", plant: UncertainPlant, set_: Uncertainty) -> tuple[Filter, dict[str, Any]]:
+    """Filter for a plant, which is one of a set where the recipe does not say of which."""
+    if recipe.method in ("exact_inverse", "unknown_input_observer"):
+        filter_ = _exact_inverse(plant) if recipe.method == "exact_inverse" else observer_bank(plant)
         identity = StateSpace.gain(np.eye(plant.inputs[0]))
         worst = worst_delta(close(augment(plant, identity), identity, filter_), blocks_of(NormBounded(), plant))
         return filter_, {"worst_norm_sampled": short(worst.norm)}
@@ -39,12 +50,15 @@ def made(recipe: "HinfRecipe") -> tuple[Filter, dict[str, Any]]:
         filter_ = bias_filter(plant, recipe.weights.weights(plant) if recipe.weights else Weights())
         return filter_, {"slowest_pole_1_s": short(float(np.linalg.eigvals(filter_.Ak).real.max()))}
     task = _Task(
-        uncertainty=recipe.uncertainty.uncertainty(plant) if recipe.uncertainty else NormBounded(),
+        uncertainty=recipe.uncertainty.uncertainty(plant) if recipe.uncertainty else set_,
         weights=recipe.weights.weights(plant) if recipe.weights else Weights(),
         options={"solver": recipe.solver, "relax": recipe.relax},
     )
     if recipe.method == "fixed_poles":
         design = optimize_fixed_poles(plant, recipe.fixed_poles or (), task.uncertainty, task.weights, **task.options)
+        return _flown(design).filter, _findings(design) | _found_reference(design)
+    if recipe.method == "two_step":
+        design = synthesize(plant, nominal_reference(plant), task.uncertainty, task.weights, **task.options)
         return _flown(design).filter, _findings(design) | _found_reference(design)
     reference = recipe.reference.system() if recipe.reference else StateSpace.gain(np.eye(plant.inputs[0]))
     if recipe.method == "fixed_reference":
@@ -93,7 +107,8 @@ def _findings(design: Design) -> dict[str, Any]:
     }
 
 
-def _plant(given: str | Mapping[str, Any]) -> UncertainPlant:
+def named_plant(given: str | Mapping[str, Any]) -> UncertainPlant:
+    """Plant of a recipe: its own matrices, or those of a benchmark; refuses a benchmark that has none."""
     if not isinstance(given, str):
         return plant_of(given, "recipe.plant")
     matrices = getattr(kinds.load("benchmark", given), "matrices", None)
@@ -120,6 +135,8 @@ def gains_of(filter_: Filter, recipe: "HinfRecipe") -> dict[str, Any]:
     names = {"A": "Ak", "B_y": "Bky", "B_u": "Bku", "C": "Ck", "D_y": "Dky", "D_u": "Dku"}
     gains: dict[str, Any] = {name: getattr(filter_, own).tolist() for name, own in names.items()}
     gains |= {"window_s": recipe.window_s, "confirm_s": recipe.confirm_s, "thresholds": [1.0] * len(filter_.Ck)}
+    gains |= {"about_first": True} if recipe.about_first else {}
+    gains |= {} if recipe.sensors is None else {"sensors": recipe.sensors.model_dump(mode="json")}
     return gains | ({"estimates_faults": True} if _speaks_plainly(recipe) else {})
 
 
@@ -131,8 +148,8 @@ def _with_a_state(filter_: Filter) -> Filter:
 
 
 def _speaks_plainly(recipe: "HinfRecipe") -> bool:
-    """Whether residual i is made to be fault i itself: an inverse, a filter of biases, or T_ref = I."""
-    if recipe.method in ("exact_inverse", "kalman"):
+    """Whether residual i is made to be fault i itself: an inverse, a nominal observer, a filter of biases, or T_ref = I."""
+    if recipe.method in ("exact_inverse", "unknown_input_observer", "kalman"):
         return True
     reference = recipe.reference.system() if recipe.reference else None
     identity = reference is None or (

@@ -69,6 +69,11 @@ class Recipe(Strict):
         self._beside = folder
         return self
 
+    def gamma_of(self, gains: Mapping[str, Any]) -> float | None:
+        """γ that other gains of the kind have in the problem of this recipe; None: the recipe asks for none."""
+        del gains
+        return None
+
     @abstractmethod
     def make(self) -> Made:
         """Gains of the recipe, and what was found on the way.

@@ -18,6 +18,7 @@ from fddbench.design.sliding_mode import (
     SlidingDesign,
     Weights,
     analyse,
+    frozen_gain,
     largest_fault,
     observer_gains,
     synthesise,
@@ -118,24 +119,30 @@ class SlidingModeRecipe(Recipe):
 
     def make(self) -> Made:
         """Observer of the recipe, and what is known of it."""
-        plant, weights = self._plant(), self._weights()
+        nothing = Pair(L=np.zeros((1, 4)), W=np.zeros((1, 4)))
+        self._gains(np.zeros((5, 5, 4)), nothing)  # what the kind refuses is said before anything is designed
+        plant, weights = self._plant(self.filter_pole_1_s), self._weights()
         if self.pair is None:
             design = synthesise(plant, weights, solver=self.solver, relax=self.relax)
         else:
             design = analyse(plant, weights, self.pair.pair(), solver=self.solver)
         flown = observer_gains(design.form, design.pair.L, np.diag(self.error_pole_1_s))
-        fault = largest_fault(design.form, np.array(self.k), self.eta_0)
-        found = found_of(design) | {"largest_fault_deg_s": short(DEG_PER_RAD * fault)}
-        linear = flown.G_l
-        if self.linear_gain == "printed":
-            linear = np.array(_printed()["Gl"], dtype=float)
+        printed = self.linear_gain == "printed"
+        gains = self._gains(np.array(_printed()["Gl"], dtype=float) if printed else flown.G_l, design.pair)
+        found = found_of(design) | self._largest(design)
+        if printed:
             found["misses_printed"] = self._misses(flown.G_l, flown.P_o, design.pair.L)
-        return Made(gains=self._gains(linear, design.pair), found=found)
+        return Made(gains=gains, found=found)
 
-    def _plant(self) -> FaultyPlant:
+    def gamma_of(self, gains: Mapping[str, Any]) -> float | None:
+        """Largest frozen γ over the vertices that the pair of other gains has with the weights of this recipe."""
+        pair = Pair(L=np.array([gains["l_row"]], dtype=float), W=np.array([gains["w"]], dtype=float))
+        return frozen_gain(self._plant(gains["filter_pole_1_s"]), self._weights(), pair)
+
+    def _plant(self, filter_pole_1_s: float) -> FaultyPlant:
         A = lateral_lpv().tables["A"][..., 0]
         return with_sensor_faults(
-            A, np.eye(4), suspects=[_YAW_RATE], filter_poles=[self.filter_pole_1_s],
+            A, np.eye(4), suspects=[_YAW_RATE], filter_poles=[filter_pole_1_s],
             M=np.array(self.uncertainty, dtype=float), box=Box.of(self.box or [(-1.0, 1.0)] * 4, 4),
         )  # fmt: skip
 
@@ -174,9 +181,20 @@ class SlidingModeRecipe(Recipe):
             SlidingModeGains.model_validate(own | dict(self.scheme))
         except ValidationError as error:
             raise RecipeError(
-                tuple(f"recipe.scheme: {'.'.join(map(str, e['loc']))}: {e['msg']}" for e in error.errors())
+                tuple(
+                    f"recipe{'' if e['loc'] and e['loc'][0] in own else '.scheme'}: {'.'.join(map(str, e['loc']))}: {e['msg']}"
+                    for e in error.errors()
+                )
             ) from error
         return own | dict(self.scheme)
+
+    def _largest(self, design: SlidingDesign) -> dict[str, float]:
+        """Largest fault by condition (15); of the super-twisting algorithm its fastest, ``A_f |f'| < k2`` of z_f."""
+        twisting = self.scheme.get("twisting")
+        if twisting is not None:
+            return {"fastest_fault_deg_s2": short(DEG_PER_RAD * twisting["k2"][-1] / self.filter_pole_1_s)}
+        fault = largest_fault(design.form.F2, np.array(self.k), self.eta_0)
+        return {"largest_fault_deg_s": short(DEG_PER_RAD * fault)}
 
     def _misses(self, G_l: Floats, P_o: Floats, L: Floats) -> dict[str, float]:
         """Largest distances of the printed gains from what the formulas give with this pair."""

@@ -75,9 +75,9 @@ class Decision(Strict):
     offset_s: Positive
     offset_deg_s: NonNegative
     rest_s: Positive
+    memory_s: Positive
     evidence_one: Positive
     evidence_two: Positive
-    contrast: NonNegative
 
 
 class YawRateBestRecipe(Recipe):

@@ -3,7 +3,7 @@
 from fddbench.design.sliding_mode.error_system import ErrorSystem, Pair, Weights
 from fddbench.design.sliding_mode.observer_gains import ObserverGains, largest_fault, observer_gains
 from fddbench.design.sliding_mode.plant import FaultyPlant, with_sensor_faults
-from fddbench.design.sliding_mode.synthesis import SlidingDesign, analyse, synthesise
+from fddbench.design.sliding_mode.synthesis import SlidingDesign, analyse, frozen_gain, synthesise
 
 __all__ = [
     "ErrorSystem",
@@ -13,6 +13,7 @@ __all__ = [
     "SlidingDesign",
     "Weights",
     "analyse",
+    "frozen_gain",
     "largest_fault",
     "observer_gains",
     "synthesise",

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from fddbench.design.geometric.affine import Box
 from fddbench.design.sliding_mode.error_system import ErrorSystem
+from fddbench.design.sliding_mode.plant import FaultyPlant
 from fddbench.interfaces import Floats
 
 __all__ = ["lower_bound"]
@@ -13,7 +13,7 @@ _WORST_CONDITION = 1e12
 """Of X with unit diagonal; beyond it counts as singular."""
 
 
-def lower_bound(system: ErrorSystem, box: Box) -> float:
+def lower_bound(system: ErrorSystem, plant: FaultyPlant) -> float:
     """Largest ``min_K ‖K N‖`` with ``K G = I`` over vertices and frequencies, for a rho that stands still [-].
 
     y = G f + N w with w = (xi, phi). A filter K that follows every fault, as the observer does, has ``K G = I``; then
@@ -21,7 +21,7 @@ def lower_bound(system: ErrorSystem, box: Box) -> float:
     ``(G* X^-1 G)^-1``. It bounds an L2 gain from below because one frequency does. Where X is singular, some combination of
     outputs is free of noise and the bound is 0.
     """
-    return max(_at(system, rho) for rho in box.corners())
+    return max(_at(system, rho) for rho in plant.vertices)
 
 
 def _at(system: ErrorSystem, rho: Floats) -> float:

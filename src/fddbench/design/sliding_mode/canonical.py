@@ -85,7 +85,7 @@ def canonical(plant: FaultyPlant) -> Canonical:
     T = np.vstack([hidden - hidden @ F @ F2_left @ C, C])
     back = np.linalg.inv(T)
     found = Canonical(A=T @ plant.A @ back, M=T @ plant.M, F2=F2, T=T, F2_left=F2_left, blind=_rows(null_space(F2.T).T))
-    for rho in plant.box.corners():
+    for rho in plant.vertices:
         _require_minimum_phase(found, rho)
     return found
 

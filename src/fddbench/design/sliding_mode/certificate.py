@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from scipy.stats import qmc
 
-from fddbench.design.geometric.affine import Box
 from fddbench.design.norms import hinf_norm
 from fddbench.design.sliding_mode.error_system import ErrorSystem, Pair
+from fddbench.design.sliding_mode.plant import FaultyPlant
 from fddbench.design.solver import attempt, modelling
 from fddbench.errors import DesignError
 from fddbench.interfaces import Floats
@@ -61,7 +61,7 @@ def bounded_real(P: Any, loop: StateSpace, gamma: Any, block: Callable[[list[lis
     return half + half.T
 
 
-def certify(system: ErrorSystem, pair: Pair, P: Floats, gamma: float, box: Box) -> Certificate:
+def certify(system: ErrorSystem, pair: Pair, P: Floats, gamma: float, plant: FaultyPlant) -> Certificate:
     """Certificate of a γ.
 
     Raises
@@ -69,7 +69,7 @@ def certify(system: ErrorSystem, pair: Pair, P: Floats, gamma: float, box: Box) 
     DesignError
         The inequalities do not hold with `MARGIN`, or a point inside contradicts them.
     """
-    loops = [system.at(rho, pair) for rho in box.corners()]
+    loops = [system.at(rho, pair) for rho in plant.vertices]
     margins = [_margin(-bounded_real(P, loop, gamma, np.block)) for loop in loops]
     margin = min([_margin(P), *margins])
     if margin < MARGIN:
@@ -77,7 +77,7 @@ def certify(system: ErrorSystem, pair: Pair, P: Floats, gamma: float, box: Box) 
             f"γ = {gamma:.6g} is not proved: the inequalities hold with a relative margin of {margin:.2e}, need {MARGIN:.0e}. "
             "Choose units in which states, outputs and weights are about one, or a larger relax"
         )
-    inside, slowest = _inside(system, pair, box)
+    inside, slowest = _inside(system, pair, plant)
     if inside > gamma * (1.0 + 1e-9) or slowest >= 0.0:
         raise DesignError(
             f"γ = {gamma:.6g} is contradicted by a frozen point of the box with {inside:.6g}: report this"
@@ -91,7 +91,7 @@ def certify(system: ErrorSystem, pair: Pair, P: Floats, gamma: float, box: Box) 
     )
 
 
-def storage(system: ErrorSystem, pair: Pair, box: Box, solver: str, relax: float) -> tuple[Floats, float]:
+def storage(system: ErrorSystem, pair: Pair, plant: FaultyPlant, solver: str, relax: float) -> tuple[Floats, float]:
     """P and γ of a given pair: the smallest γ that one V proves at all vertices, relaxed so that it can be checked.
 
     Raises
@@ -100,7 +100,7 @@ def storage(system: ErrorSystem, pair: Pair, box: Box, solver: str, relax: float
         There is no V: the pair is unstable somewhere, or has no common one.
     """
     cp = modelling()
-    loops = [system.at(rho, pair) for rho in box.corners()]
+    loops = [system.at(rho, pair) for rho in plant.vertices]
     n = loops[0].order
     P, gamma, margin = cp.Variable((n, n), symmetric=True), cp.Variable(), cp.Variable()
     matrices = [bounded_real(P, loop, gamma, cp.bmat) for loop in loops]
@@ -124,9 +124,10 @@ def _margin(definite: Floats) -> float:
     return float(np.linalg.eigvalsh(definite / np.outer(root, root)).min(initial=np.inf))
 
 
-def _inside(system: ErrorSystem, pair: Pair, box: Box) -> tuple[float, float]:
+def _inside(system: ErrorSystem, pair: Pair, plant: FaultyPlant) -> tuple[float, float]:
     """Largest gain over points of the box and frequencies, and the largest real part of a pole."""
-    points = box.corners()
+    points = plant.vertices
+    box = plant.box
     if len(box.low):
         spread = qmc.Halton(len(box.low), scramble=False).random(N_INSIDE)
         points = np.vstack([points, box.centre + (2.0 * spread - 1.0) * box.half])

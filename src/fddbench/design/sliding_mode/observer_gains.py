@@ -57,7 +57,7 @@ def observer_gains(form: Canonical, L: Floats, stable: Floats) -> ObserverGains:
     )
 
 
-def largest_fault(form: Canonical, k: Floats, eta_0: float) -> float:
+def largest_fault(F2: Floats, k: Floats, eta_0: float) -> float:
     """Largest ``|f|`` for which condition (15), ``K > |F2| |f| + eta_0``, holds, in the unit of the model.
 
     A diagonal K counts by its smallest entry: ``e' P_o K P_o e >= min K |P_o e|^2``. Like the condition of the paper it
@@ -73,4 +73,4 @@ def largest_fault(form: Canonical, k: Floats, eta_0: float) -> float:
         raise DesignError(
             f"condition (15): min K = {np.min(k):g} does not exceed eta_0 = {eta_0:g}; raise k or lower eta_0"
         )
-    return left / float(np.linalg.norm(form.F2, 2))
+    return left / float(np.linalg.norm(F2, 2))

@@ -39,6 +39,11 @@ class FaultyPlant:
     corrupted: tuple[bool, ...]
     box: Box
 
+    @property
+    def vertices(self) -> Floats:
+        """Corners of the box in the parameters that move A, the others in the middle, (n_vertices, n_rho)."""
+        return self.box.corners(self.box.active(self.A))
+
 
 def with_sensor_faults(
     A: Floats, C: Floats, *, suspects: Sequence[int], filter_poles: Sequence[float], M: Floats, box: Box

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fddbench.design.norms import hinf_norm
 from fddbench.design.sliding_mode.bound import lower_bound
 from fddbench.design.sliding_mode.canonical import Canonical, canonical
 from fddbench.design.sliding_mode.certificate import Certificate, certify, storage
@@ -13,7 +14,7 @@ from fddbench.design.sliding_mode.plant import FaultyPlant
 from fddbench.design.sliding_mode.search import best
 from fddbench.errors import DesignError
 
-__all__ = ["SlidingDesign", "analyse", "synthesise"]
+__all__ = ["SlidingDesign", "analyse", "frozen_gain", "synthesise"]
 
 _RELAX_OF_ANALYSIS = 1e-3
 
@@ -62,9 +63,9 @@ def synthesise(plant: FaultyPlant, weights: Weights, *, solver: str = "CLARABEL"
     inequalities of its reference [17] is ours.
     """
     system = ErrorSystem(form=canonical(plant), weights=weights)
-    found = best(system, plant.box.corners(), solver, relax)
+    found = best(system, plant.vertices, solver, relax)
     pair, P = point_of(system, found.moderate, found.scale)
-    proof = certify(system, pair, P, float(found.moderate.gamma), plant.box)
+    proof = certify(system, pair, P, float(found.moderate.gamma), plant)
     return _judged(plant, system, pair, proof, float(found.optimum.gamma))
 
 
@@ -78,13 +79,20 @@ def analyse(plant: FaultyPlant, weights: Weights, pair: Pair, *, solver: str = "
     """
     system = ErrorSystem(form=canonical(plant), weights=weights)
     _require_structure(system.form, pair)
-    P, gamma = storage(system, pair, plant.box, solver, _RELAX_OF_ANALYSIS)
-    proof = certify(system, pair, P, gamma, plant.box)
+    P, gamma = storage(system, pair, plant, solver, _RELAX_OF_ANALYSIS)
+    proof = certify(system, pair, P, gamma, plant)
     return _judged(plant, system, pair, proof, gamma / (1.0 + _RELAX_OF_ANALYSIS))
 
 
+def frozen_gain(plant: FaultyPlant, weights: Weights, pair: Pair) -> float:
+    """Largest H∞ norm of a pair over the vertices, for a rho that stands still; infinite where it is unstable [-]."""
+    system = ErrorSystem(form=canonical(plant), weights=weights)
+    loops = [system.at(rho, pair) for rho in plant.vertices]
+    return max(hinf_norm(loop).value if loop.stable() else np.inf for loop in loops)
+
+
 def _judged(plant: FaultyPlant, system: ErrorSystem, pair: Pair, proof: Certificate, optimum: float) -> SlidingDesign:
-    bound = lower_bound(system, plant.box)
+    bound = lower_bound(system, plant)
     if bound > proof.gamma:
         raise DesignError(f"γ = {proof.gamma:.6g} lies below what is possible, {bound:.6g}: report this")
     return SlidingDesign(form=system.form, pair=pair, certificate=proof, optimum=optimum, bound=bound)

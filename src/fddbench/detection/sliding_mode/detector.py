@@ -9,7 +9,7 @@ from fddbench.blocks.block import NO_DRAWS, NOTHING
 from fddbench.blocks.drawn import Draws
 from fddbench.blocks.functions import exp, sin
 from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, record
-from fddbench.blocks.linear import largest
+from fddbench.blocks.linear import largest, total
 from fddbench.detection.confirmation import held_samples, samples
 from fddbench.detection.consolidation import deviations_deg_s, largest_deviation_deg_s, outlier
 from fddbench.detection.isolation import choose, latch
@@ -27,6 +27,8 @@ _NEEDS = (
     "phi_deg", "beta_deg", "p_deg_s", "r_deg_s", "r_voted_deg_s", "surface_deg", "v_tas_m_s",
     "mass_kg", "x_cg_ratio", "altitude_ft", "v_cas_kt",
 )  # fmt: skip
+_INSIDE = ("output_error", "modulation_used", "rho_mass", "rho_x_cg", "rho_altitude", "rho_v_cas")
+"""|e_y| with angles in rad and speeds in m/s; the largest share of K that an injection takes, below 1 while it slides (15)."""
 _SAMPLE_S = (0.002, 0.1)
 """Sample times at which the numbers of the energy monitor (tuned for 10 ms) mean something."""
 
@@ -60,7 +62,7 @@ class SlidingMode:
     """
 
     about = "LPV sliding-mode observer with flag, adaptive threshold, isolation and energy monitor"
-    recorded = ("reconstruction_deg_s", "threshold_deg_s", "deviation_deg_s", "flag_threshold_deg_s")
+    recorded: tuple[str, ...] = ("reconstruction_deg_s", "threshold_deg_s", "deviation_deg_s", "flag_threshold_deg_s")
     estimates = "r_voted_deg_s"
     Gains = SlidingModeGains
     constants: Layout[Any] = NOTHING
@@ -70,6 +72,7 @@ class SlidingMode:
         g, T = gains, bus.sample_s
         self.gains, self.sample_s, self.watches = g, T, bus.redundant("r_deg_s")
         self.observer = Observer(g, T)
+        self.recorded = (*type(self).recorded, *(_INSIDE if g.record_observer else ()))
         self.threshold = AdaptiveThreshold(
             pole_1_s=g.threshold_pole_1_s, gain=g.threshold_gain, roll_surface_scale=g.roll_surface_scale,
             rudder_scale=g.rudder_scale, floor_deg_s=g.threshold_floor_deg_s, sample_s=T,
@@ -117,7 +120,7 @@ class SlidingMode:
         self, x: SlidingModeState, c: Nothing, n: Nothing, measured: SimpleNamespace
     ) -> tuple[SlidingModeState, Verdict]:
         """Verdict after one sample."""
-        lagged, observer, reconstruction = self._reconstruct(x, measured)
+        lagged, observer, reconstruction, inside = self._reconstruct(x, measured)
         level, threshold = self.threshold.step(x.threshold, c, n, measured.surface_deg)
         ratio = np.abs(reconstruction) / threshold
 
@@ -144,10 +147,12 @@ class SlidingMode:
             "deviation_deg_s": apart,
             "flag_threshold_deg_s": np.full_like(apart, self.gains.flag_threshold_deg_s),
         }
+        if self.gains.record_observer:
+            shown |= inside
         return after, Verdict(declared, ratio, signals=shown, estimate=reconstruction)
 
-    def _reconstruct(self, x: SlidingModeState, m: SimpleNamespace) -> tuple[Rows, ObserverState, Row]:
-        """Lagged inputs, observer state and filtered reconstruction [deg/s].
+    def _reconstruct(self, x: SlidingModeState, m: SimpleNamespace) -> tuple[Rows, ObserverState, Row, dict[str, Row]]:
+        """Lagged inputs, observer state, filtered reconstruction [deg/s], and the inside by the names of `_INSIDE`.
 
         All inputs pass the same lag: filtering the sideslip alone would cost gain and phase.
         """
@@ -156,8 +161,10 @@ class SlidingMode:
         inputs = np.concatenate([lateral, m.surface_deg])
         lagged = x.lagged + self.input_share * (inputs - x.lagged)
         rho = self.observer.model.rho(m.mass_kg, m.x_cg_ratio, m.altitude_ft, m.v_cas_kt)
-        observer, raw_rad_s = self.observer.step(
+        observer, raw_rad_s, inside = self.observer.step(
             x.observer, Nothing(), Nothing(), lagged[:3], lagged[3], lagged[4:], rho
         )
         smooth = x.reconstruction_deg_s + self.output_share * (DEG_PER_RAD * raw_rad_s - x.reconstruction_deg_s)
-        return lagged, observer, smooth
+        used = np.abs(inside.nu / self.observer.k)
+        shown = (np.sqrt(total(inside.e_y * inside.e_y)), largest(used), *rho)
+        return lagged, observer, smooth, dict(zip(_INSIDE, shown, strict=True))

@@ -1,10 +1,10 @@
 """Numbers of the sliding-mode scheme, checked when a design is read."""
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-__all__ = ["SlidingModeGains"]
+__all__ = ["SlidingModeGains", "TwistingEntry"]
 
 Number = Annotated[float, Field(allow_inf_nan=False)]
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
@@ -12,6 +12,21 @@ NonNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
 Row4 = Annotated[tuple[Number, ...], Field(min_length=4, max_length=4)]
 Positive4 = Annotated[tuple[Positive, ...], Field(min_length=4, max_length=4)]
 Matrix5x4 = Annotated[tuple[Row4, ...], Field(min_length=5, max_length=5)]
+
+
+class TwistingEntry(BaseModel):
+    """Gains of the super-twisting injection.
+
+    Attributes
+    ----------
+    k1, k2 : numbers, one per output
+        Of the root and of the integral.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    k1: Annotated[tuple[Positive, ...], Field(min_length=1)]
+    k2: Annotated[tuple[Positive, ...], Field(min_length=1)]
 
 
 class SlidingModeGains(BaseModel):
@@ -31,8 +46,12 @@ class SlidingModeGains(BaseModel):
         Row of the yaw rate in Gn: -2 L as printed, or -L as eq (19) gives.
     error_pole_1_s : 4 numbers
         Diagonal of the stable matrix A22s [1/s]; P_o follows from the Lyapunov equation (14).
+    injection : {"sigmoid", "unit_vector", "super_twisting"}
+        Eq (37); eq (13), solved without chattering; or the continuous algorithm of second order.
     k, delta : 4 numbers, float
         Modulation gain K and smoothing of eq (37).
+    twisting : TwistingEntry or None
+        Gains of super_twisting in place of k and delta.
     w : 4 numbers
         W of eq (21); zeros switch the observer's verdict off.
     newton_steps : int
@@ -49,6 +68,8 @@ class SlidingModeGains(BaseModel):
         Energy monitor: so many of the last samples must exceed the limit; at most 52 samples.
     energy_limit_deg_s2 : float
         Limit of the numerical derivative [deg/s^2]; belongs to the sample time of the design.
+    record_observer : bool
+        Flights that are flown again show the inside of the observer too: output error, injection, rho.
     """
 
     THRESHOLDS: ClassVar = {
@@ -65,8 +86,10 @@ class SlidingModeGains(BaseModel):
     error_pole_1_s: Annotated[
         tuple[Annotated[float, Field(lt=0.0, allow_inf_nan=False)], ...], Field(min_length=4, max_length=4)
     ]
+    injection: Literal["sigmoid", "unit_vector", "super_twisting"] = "sigmoid"
     k: Positive4
     delta: Positive
+    twisting: TwistingEntry | None = None
     w: Row4
     newton_steps: Annotated[int, Field(ge=1, le=20)] = 3
     threshold_floor_deg_s: Positive
@@ -80,3 +103,12 @@ class SlidingModeGains(BaseModel):
     energy_window_samples: Annotated[int, Field(ge=2, le=52)]
     energy_count: Annotated[int, Field(ge=1, le=52)]
     energy_limit_deg_s2: Positive
+    record_observer: bool = False
+
+    @model_validator(mode="after")
+    def _twisting_has_gains(self) -> Self:
+        if (self.injection == "super_twisting") != (self.twisting is not None):
+            raise ValueError("injection: super_twisting needs `twisting: {k1, k2}`, and nothing else looks at it")
+        if self.twisting is not None and {len(self.twisting.k1), len(self.twisting.k2)} != {4}:
+            raise ValueError("twisting: k1 and k2 have 4 numbers, for phi, V_y, p and z_f")
+        return self

@@ -1,12 +1,11 @@
-"""The core observer, eqs (11)-(13) with the smooth injection (37), and the fault reconstruction, eq (21).
+"""The core observer, eqs (11)-(12), and the fault reconstruction, eq (21).
 
 States x = [phi, V_y, p, r, z_f] in rad, m/s, rad/s; outputs y_m = [phi, V_y, p, z_f], where z_f is the voted yaw rate
-through the filter ``z_f' = -A_f z_f + A_f r``. The scheme is explicit but for the injection: with K P_o / delta of 161 to 191
-1/s an explicit step diverges above 10.3 ms, so the error after the injection is solved for,
+through the filter ``z_f' = -A_f z_f + A_f r``. The scheme is explicit but for the injection: the error after it is solved for,
 
-    e = e* - T K P_o e / (|P_o e| + delta),        e* = C x* - y_m predicted,
+    e = e* + T nu(e),        e* = C x* - y_m predicted,
 
-which is one scalar equation for s = |P_o e|. The DC gain of the reconstruction is then the same at every sample time.
+so that the DC gain of the reconstruction is the same at every sample time.
 """
 
 from typing import Any
@@ -18,18 +17,28 @@ from fddbench.blocks.drawn import Draws
 from fddbench.blocks.layout import ROW, Layout, Nothing, Row, Rows, record
 from fddbench.blocks.linear import affine, column, product, total
 from fddbench.detection.sliding_mode.gains import SlidingModeGains
+from fddbench.detection.sliding_mode.injection import injection
 from fddbench.flight.lateral_lpv import lateral_lpv
 
-__all__ = ["Observer", "ObserverState"]
+__all__ = ["Inside", "Observer", "ObserverState"]
 
 
 @record
 class ObserverState:
-    """State of the observer, its rate, and the filtered yaw rate."""
+    """State of the observer, its rate, the filtered yaw rate, and what the injection keeps."""
 
     x: Rows
     rate: Rows
     z_f: Row
+    injection: Any
+
+
+@record
+class Inside:
+    """Injection nu and output error e_y after it, in the order [phi, V_y, p, z_f] of the outputs."""
+
+    nu: Rows
+    e_y: Rows
 
 
 class Observer:
@@ -38,12 +47,11 @@ class Observer:
     Parameters
     ----------
     gains : SlidingModeGains
-        Linear gain G_l(rho), L and its sign convention, A22s, K, delta, W, A_f.
+        Linear gain G_l(rho), L and its sign convention, A22s, W, A_f, and the numbers of the injection.
     sample_s : float
         T [s].
     """
 
-    states = Layout(ObserverState(x=5, rate=5, z_f=ROW))
     constants: Layout[Any] = NOTHING
     draws: Draws[Any] = NO_DRAWS
 
@@ -56,16 +64,18 @@ class Observer:
         # eq (14) for a diagonal A22s: 2 a P = -1
         self.p_o = column([-0.5 / pole for pole in gains.error_pole_1_s])
         self.k = column(gains.k)
+        self.injection: Any = injection(gains, k=self.k, p_o=self.p_o, sample_s=sample_s)
+        self.states = Layout(ObserverState(x=5, rate=5, z_f=ROW, injection=self.injection.states.shape))
 
     def start(self, c: Nothing) -> ObserverState:
         """At rest."""
         del c
-        return ObserverState(x=0.0, rate=0.0, z_f=0.0)
+        return ObserverState(x=0.0, rate=0.0, z_f=0.0, injection=self.injection.start())
 
     def step(
         self, s: ObserverState, c: Nothing, n: Nothing, y: Rows, r_rad_s: Row, surface_deg: Rows, rho: Rows
-    ) -> tuple[ObserverState, Row]:
-        """State and reconstruction of the fault on the voted yaw rate [rad/s], (n_cases,), at this sample.
+    ) -> tuple[ObserverState, Row, Inside]:
+        """State, reconstruction of the fault on the voted yaw rate [rad/s], (n_cases,), and the inside at this sample.
 
         Parameters
         ----------
@@ -82,7 +92,7 @@ class Observer:
         g, T = self.gains, self.sample_s
         y_m = np.concatenate([y, s.z_f[np.newaxis]])
         predicted = s.x + T * s.rate
-        nu = self._injection(_outputs(predicted) - y_m)
+        kept, nu = self.injection.step(s.injection, _outputs(predicted) - y_m)
         gn_nu = np.stack([nu[0], nu[1], nu[2], total([self.gn_r[j] * nu[j] for j in range(4)]), nu[3]])
         x = predicted + T * gn_nu
         A, B = self.model.matrices(rho)
@@ -91,30 +101,8 @@ class Observer:
         rate = linear - product(affine(self.linear_gain, rho), _outputs(x) - y_m)
         z_f = s.z_f + T * g.filter_pole_1_s * (r_rad_s - s.z_f)
         reconstruction = total([g.w[j] * nu[j] for j in range(4)])
-        return ObserverState(x=x, rate=rate, z_f=z_f), reconstruction
-
-    def _injection(self, predicted_error: Rows) -> Rows:
-        """Injection ``nu = -K P_o e / (|P_o e| + delta)`` with e after the injection, (4, n_cases).
-
-        Newton's method on ``f(s) = |P_o e(s)| - s`` with ``e_i(s) = e*_i (s + delta) / (s + delta + T K_i P_o,i)``, which
-        is concave; from the exact solution for equal gains three steps leave 1e-14 at 10 ms and 3e-10 at 40 ms.
-        """
-        delta, c = self.gains.delta, self.sample_s * self.k * self.p_o
-        weighted = self.p_o * predicted_error
-        q = np.sqrt(total(weighted * weighted))
-        mean = float(np.mean(c))
-        b = q - delta - mean
-        s = 0.5 * (b + np.sqrt(b * b + 4.0 * delta * q))
-        for _ in range(self.gains.newton_steps):
-            wide = s + delta
-            share = wide / (wide + c)
-            part = weighted * share
-            squared = total(part * part)
-            norm = np.sqrt(squared)
-            slope = total(part * part * c / (wide * (wide + c))) / np.maximum(norm, 1e-300)
-            s = np.maximum(s + (norm - s) / (1.0 - slope), 0.0)
-        error = predicted_error * ((s + delta) / (s + delta + c))
-        return -self.k * self.p_o * error / (s + delta)
+        after = ObserverState(x=x, rate=rate, z_f=z_f, injection=kept)
+        return after, reconstruction, Inside(nu=nu, e_y=_outputs(x) - y_m)
 
 
 def _outputs(x: Rows) -> Rows:

@@ -52,10 +52,9 @@ class YawRateBest:
     **Decision.** While the sensors differ by more than healthy ones do (offsets are learned), each witness sums its squared
     innovations, smoothed and divided by their level in this air; half of a difference of two sums is a log-likelihood ratio.
     What air and model do wrong is the same for all three and drops out but for what points along the fault. A sensor is
-    declared when its sum exceeds that of the best witness by `evidence_one`, two at once by `evidence_two`, and by a share
-    (`contrast`) of what so large a difference could have brought. No timer, no vote; shape, size and sign of the fault are
-    free, so opposite pairs, oscillations and freezes are nothing special, and all sensors are treated alike. The estimate is
-    the voted signal less the mean of the sensors that are not declared.
+    declared when its sum exceeds that of the best witness by `evidence_one`, two at once by `evidence_two`. No timer, no
+    vote; shape, size and sign of the fault are free, so opposite pairs, oscillations and freezes are nothing special, and all
+    sensors are treated alike. The estimate is the voted signal less the mean of the sensors that are not declared.
 
     **Model assumed.** The table of the design: rigid aircraft, small sideslip, measured mass, X_cg, altitude and airspeed 10
     % wrong are in order. **Blind** to what leaves the sensors equal (three frozen in cruise), to faults below `differ_deg_s`,
@@ -73,7 +72,7 @@ class YawRateBest:
     Magill (1965), Optimal adaptive estimation of sampled stochastic processes, IEEE Transactions on Automatic Control 10(4),
     434-439: hypotheses as a bank of filters. Willsky, Jones (1976), A generalized likelihood ratio approach to the detection
     and estimation of jumps in linear systems, IEEE Transactions on Automatic Control 21(1), 108-112. The complementary use of
-    moment and force equation, levels and contrast are ours.
+    moment and force equation and the levels are ours.
 
     Examples
     --------
@@ -97,7 +96,7 @@ class YawRateBest:
         rest = samples("rest_s", gains.rest_s, T)
         self.difference = Difference(gains, _share(T, gains.differ_s), T / gains.offset_s, rest)
         # means over smooth_s are as good as independent every two of these
-        self.evidence = Evidence(gains, T / (2.0 * gains.smooth_s), T / gains.level_s)
+        self.evidence = Evidence(gains, T / (2.0 * gains.smooth_s), T / gains.level_s, 1.0 - _share(T, gains.memory_s))
         self.states = Layout(
             YawRateBestState(
                 witnesses=self.witnesses.states.shape,
@@ -146,13 +145,13 @@ class YawRateBest:
         witnesses, innovations = self.witnesses.step(
             x.witnesses, self.model.drives(measured), r_deg_s, measured.beta_deg
         )
-        evidence, judged = self.evidence.step(x.evidence, innovations, x.declared, gathering)
-        declared = np.where(judged.accused & differ, 1.0, x.declared)
+        evidence, against = self.evidence.step(x.evidence, innovations, x.declared, gathering)
+        declared = np.where((against > 1.0) & differ, 1.0, x.declared)
         trusted = 1.0 - declared
         estimate = measured.r_voted_deg_s - total(trusted * r_deg_s) / total(trusted)
         after = YawRateBestState(witnesses=witnesses, difference=difference, evidence=evidence, declared=declared)
-        shown = {f"evidence_{i + 1}": judged.ratio[i] for i in range(3)} | {"difference_ratio": ratio}
-        return after, Verdict(declared, largest(judged.ratio), signals=shown, estimate=estimate)
+        shown = {f"evidence_{i + 1}": against[i] for i in range(3)} | {"difference_ratio": ratio}
+        return after, Verdict(declared, largest(against), signals=shown, estimate=estimate)
 
 
 def _share(sample_s: float, time_s: float) -> float:

@@ -10,7 +10,6 @@ __all__ = ["SIDE_ROWS", "YAW_ROWS", "LateralTable", "YawRateBestGains"]
 Number = Annotated[float, Field(allow_inf_nan=False)]
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 NonNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
-Share = Annotated[float, Field(ge=0.0, lt=1.0)]
 Four = Annotated[tuple[Number, ...], Field(min_length=4, max_length=4)]
 FourPositive = Annotated[tuple[Positive, ...], Field(min_length=4, max_length=4)]
 Powers = Annotated[tuple[Annotated[int, Field(ge=0, le=3)], ...], Field(min_length=4, max_length=4)]
@@ -102,14 +101,14 @@ class YawRateBestGains(BaseModel):
         Time constant at which offsets between healthy sensors are learned [s], and how large they may be [deg/s].
     rest_s : float
         How long sensors must agree again before evidence is forgotten [s].
+    memory_s : float
+        Time constant at which evidence is forgotten while sensors differ [s].
     evidence_one, evidence_two : float
         Evidence that declares a sensor, alone or as one of two [-].
-    contrast : float
-        Share of the evidence that is possible at this difference that must be there besides [-].
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
-    THRESHOLDS: ClassVar[Mapping[str, str]] = {"evidence_one": "up", "evidence_two": "up"}
+    THRESHOLDS: ClassVar[Mapping[str, str]] = {"differ_deg_s": "up", "evidence_one": "up", "evidence_two": "up"}
 
     sample_s: Positive
     table: LateralTable
@@ -129,6 +128,6 @@ class YawRateBestGains(BaseModel):
     offset_s: Positive
     offset_deg_s: NonNegative
     rest_s: Positive
+    memory_s: Positive
     evidence_one: Positive
     evidence_two: Positive
-    contrast: Share

@@ -55,7 +55,8 @@ class Transport6Dof:
     constants = Layout(
         PlantConstants(
             body=BODY, begun=ROWS, v_tas_m_s=ROW, wind_north_m_s=ROW, wind_east_m_s=ROW, track_rad=ROW,
-            mass_measured_kg=ROW, x_cg_measured_ratio=ROW, one_altitude=ROW, one_v_cas=ROW, law=TransportLaw.constants.shape,
+            mass_measured_kg=ROW, x_cg_measured_ratio=ROW, one_altitude=ROW, one_v_cas=ROW, beta_error_deg=ROW,
+            law=TransportLaw.constants.shape,
         )
     )  # fmt: skip
     draws = NO_DRAWS
@@ -108,7 +109,8 @@ class Transport6Dof:
         constants = PlantConstants(
             body=body, begun=at.rows(), v_tas_m_s=v_tas, wind_north_m_s=north, wind_east_m_s=east,
             track_rad=atan2(east, v_tas + north), mass_measured_kg=mass * one["mass"],
-            x_cg_measured_ratio=x_cg * one["x_cg"], one_altitude=one["altitude"], one_v_cas=one["v_cas"], law=law,
+            x_cg_measured_ratio=x_cg * one["x_cg"], one_altitude=one["altitude"], one_v_cas=one["v_cas"],
+            beta_error_deg=parameters["beta_error_deg"], law=law,
         )  # fmt: skip
         return Prepared(constants=constants, infeasible_reason=reasons(aircraft, manoeuvres, mass, altitude, v_cas))
 

@@ -34,7 +34,7 @@ class PlantConstants:
 
     What is measured of the flight, and what the law knows of it.
 
-    `one_altitude` and `one_v_cas` are ``1 + error`` of the measured altitude and airspeed.
+    `one_altitude` and `one_v_cas` are ``1 + error`` of the measured altitude and airspeed; the error of sideslip is added.
     """
 
     body: Body
@@ -47,6 +47,7 @@ class PlantConstants:
     x_cg_measured_ratio: Row
     one_altitude: Row
     one_v_cas: Row
+    beta_error_deg: Row
     law: LawConstants
 
 

@@ -86,7 +86,7 @@ def measured(
     return SimpleNamespace(
         phi_deg=voted.get(PHI_UNITS, readings.phi_deg),
         theta_deg=readings.theta_deg,
-        beta_deg=readings.beta_deg,
+        beta_deg=readings.beta_deg + c.beta_error_deg,
         p_deg_s=voted.get(P_UNITS, readings.p_deg_s),
         q_deg_s=readings.q_deg_s,
         r_deg_s=s["r_deg_s"],
