@@ -15,6 +15,8 @@ def test_it_prints_distances_and_what_they_stand_on(capsys):
 
 def test_a_benchmark_without_a_model_says_so(capsys):
     assert main(["bound", "jet_engine_monte_carlo", "--flights", "1"]) == 0
+    assert "with Δ known two samples betray any fault" in capsys.readouterr().out
+    assert main(["bound", "b747_figures"]) == 0
     assert "states no ideal model" in capsys.readouterr().out
 
 

@@ -10,7 +10,7 @@ import pandas as pd
 from fddbench.api.flights import campaign_of
 from fddbench.campaign.meaning import Campaign
 from fddbench.errors import FddbenchError, place_of, reason_of
-from fddbench.interfaces import IdealModel
+from fddbench.interfaces import Floats, IdealModel
 from fddbench.metrics.bound import P_FA, bound_line, bounds_table, detectability
 from fddbench.runner.signatures import MOST_FLIGHTS, Signature, signatures
 
@@ -52,9 +52,10 @@ def bounds(source: Campaign | str | Path, *, p_fa: float = P_FA, flights: int = 
 
 def bounds_of(campaign: Campaign, *, p_fa: float = P_FA, flights: int = MOST_FLIGHTS) -> pd.DataFrame:
     """`bounds` of a campaign."""
-    if not hasattr(campaign.bench, "ideal"):
+    why = _unstated(campaign)
+    if why:
         names = [scenario.name for scenario in campaign.scenarios if scenario.faults]
-        return bounds_table([{"scenario": name, "about": _UNSTATED} for name in names])
+        return bounds_table([{"scenario": name, "about": why} for name in names])
     known: Known = {}
     return bounds_table([line for one in signatures(campaign, flights) for line in _lines(campaign, one, p_fa, known)])
 
@@ -63,12 +64,20 @@ Known = dict[tuple[bytes, ...], "Mapping[str, IdealModel] | str"]
 """Models that are stated already, by the parameters of the flights: scenarios fly the same aircraft."""
 
 
+def _unstated(campaign: Campaign) -> str:
+    """Why there is no bound, before anything is flown for one; "" where there is."""
+    if not hasattr(campaign.bench, "ideal"):
+        return _UNSTATED
+    usual = _models(campaign, {each.name: np.array([each.default]) for each in campaign.plant.parameters})
+    return usual if isinstance(usual, str) else ""
+
+
 def _lines(campaign: Campaign, signature: Signature, p_fa: float, known: Known) -> Iterator[dict[str, Any]]:
     """Lines of a scenario, model by model."""
     where = {"scenario": signature.scenario, "window_s": signature.window_s}
     key = tuple(values.tobytes() for values in signature.batch.parameters.values())
     if key not in known:
-        known[key] = _models(campaign, signature)
+        known[key] = _models(campaign, signature.batch.parameters)
     models = known[key]
     if isinstance(models, str):
         yield where | {"about": models}
@@ -81,12 +90,12 @@ def _lines(campaign: Campaign, signature: Signature, p_fa: float, known: Known) 
         yield where | {"model": name, "about": model.about} | bound_line(*detectability(model, signature.faults), p_fa)
 
 
-def _models(campaign: Campaign, signature: Signature) -> Mapping[str, IdealModel] | str:
-    """What the benchmark states for the flights of a signature."""
+def _models(campaign: Campaign, parameters: Mapping[str, Floats]) -> Mapping[str, IdealModel] | str:
+    """What the benchmark states for flights with these parameters."""
     try:
         with np.errstate(all="ignore"):
             found: Mapping[str, IdealModel] | str = campaign.bench.ideal(  # type: ignore[attr-defined]
-                campaign.chosen, signature.batch.parameters, campaign.sample_s
+                campaign.chosen, parameters, campaign.sample_s
             )
     except (Exception, SystemExit) as error:  # a benchmark may be somebody else's
         raise FddbenchError(

@@ -12,6 +12,7 @@ from fddbench.designs.design import read_design
 from fddbench.detection.sliding_mode_observer.observer import Observer
 from fddbench.errors import CampaignError, DesignError
 from fddbench.runner.assembling import assemble
+from fddbench.runner.replay import replay_campaign
 
 ACTUATOR = """\
 kind: sliding_mode_observer
@@ -143,3 +144,30 @@ def test_what_a_benchmark_does_not_have_is_refused():
     campaign = read_campaign(gallery.folder("campaigns") / "smoke.yaml", ["detectors=[sliding_mode_b747]"])
     with pytest.raises(CampaignError, match="alpha_deg"):
         assemble(campaign)
+
+
+def test_the_shipped_design_tells_a_fault_of_roll_rate_from_one_of_yaw_rate():
+    """1 deg/s on two units of the one, and of the other: its own estimate follows, the other stays where it was."""
+    campaign = read_campaign(
+        gallery.folder("campaigns") / "smoke.yaml",
+        ["detectors=[sliding_mode_p_and_r]", "sensors=iru", "dispersions.monte_carlo.runs=2", f"scenarios={PAIRS}"],
+    )
+    moved = {}
+    for scenario in ("p", "r"):
+        (recording,) = replay_campaign(campaign, scenarios=[scenario])
+        shown = recording.detectors["sliding_mode_p_and_r"]
+        moved[scenario] = [
+            np.abs(shown[f"estimate_{name}"][-50:] - shown[f"estimate_{name}"][350:400]).mean() for name in "pr"
+        ]
+    assert moved["p"][0] == pytest.approx(0.93, abs=0.12)
+    assert moved["r"][1] == pytest.approx(0.93, abs=0.12)
+    assert moved["p"][1] < 0.1
+    assert moved["r"][0] < 0.1
+
+
+PAIRS = (
+    "[{name: p, manoeuvre: cruise, duration_s: 7.0, "
+    "faults: [{kind: bias, sites: [p1, p2], onset_s: 4.0, amplitude_deg_s: 1.0}]}, "
+    "{name: r, manoeuvre: cruise, duration_s: 7.0, "
+    "faults: [{kind: bias, sites: [r1, r2], onset_s: 4.0, amplitude_deg_s: 1.0}]}]"
+)

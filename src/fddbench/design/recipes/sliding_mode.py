@@ -119,6 +119,8 @@ class SlidingModeRecipe(Recipe):
 
     def make(self) -> Made:
         """Observer of the recipe, and what is known of it."""
+        nothing = Pair(L=np.zeros((1, 4)), W=np.zeros((1, 4)))
+        self._gains(np.zeros((5, 5, 4)), nothing)  # what the kind refuses is said before anything is designed
         plant, weights = self._plant(self.filter_pole_1_s), self._weights()
         if self.pair is None:
             design = synthesise(plant, weights, solver=self.solver, relax=self.relax)
@@ -179,7 +181,10 @@ class SlidingModeRecipe(Recipe):
             SlidingModeGains.model_validate(own | dict(self.scheme))
         except ValidationError as error:
             raise RecipeError(
-                tuple(f"recipe.scheme: {'.'.join(map(str, e['loc']))}: {e['msg']}" for e in error.errors())
+                tuple(
+                    f"recipe{'' if e['loc'] and e['loc'][0] in own else '.scheme'}: {'.'.join(map(str, e['loc']))}: {e['msg']}"
+                    for e in error.errors()
+                )
             ) from error
         return own | dict(self.scheme)
 
