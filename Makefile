@@ -34,9 +34,9 @@ scores: $(VENV)/ready
 	  $(BIN)/fddbench run campaigns/$$name.yaml --fresh --quiet && mkdir -p reports/$$name \
 	  && $(BIN)/fddbench scores results/$$name > reports/$$name/scores.yaml || exit 1; done
 
-# what the campaigns on yaw-rate detectors found, in ten lines each, written from their rows
+# what the campaigns that compare detectors found, in ten lines each, written from their rows
 findings: $(VENV)/ready
-	for path in campaigns/yaw_rate_*.yaml; do name=$$(basename $$path .yaml); \
+	for path in campaigns/yaw_rate_*.yaml campaigns/*_engine_comparison.yaml campaigns/b747_comparison.yaml; do name=$$(basename $$path .yaml); \
 	  grep -q '^purpose: tuning' $$path && continue; \
 	  $(BIN)/fddbench run $$path --fresh --quiet; mkdir -p reports/$$name \
 	  && $(BIN)/fddbench finding results/$$name > reports/$$name/finding.md || exit 1; done

@@ -47,7 +47,7 @@ class KalmanGust:
     equation alone would drift. Blind to faults below the gate; a pair that drifts away slowly teaches the filter its drift
     before the gate opens, and some are then declared as one. Off with errors of the measured parameters in turns.
     Knobs: the gate trades small and slow faults for false alarms of sensors that differ anyway; less `yaw_drift_deg_s3` makes
-    the filter harder to teach; a longer `confirm_one_s` leaves slow pairs more time to show. Cost: 543 operations a sample.
+    the filter harder to teach; a longer `confirm_one_s` leaves slow pairs more time to show. Cost: 539 operations a sample.
 
     References
     ----------

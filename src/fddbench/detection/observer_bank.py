@@ -54,7 +54,7 @@ class ObserverBank:
     each observer follows its own sensor, only what contradicts the motion remains: a constant offset is found by its start
     and, with less force, by the turn and sideslip that it would mean. Blind to faults below the gate. Knobs:
     `recipe.filter.r_deg_s`, how little the observers follow their sensors, trades jumps for slow faults; `memory_s` quick
-    decisions for sure ones. Cost: 716 operations a sample.
+    decisions for sure ones. Cost: 712 operations a sample.
 
     References
     ----------

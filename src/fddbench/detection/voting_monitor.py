@@ -50,7 +50,7 @@ class VotingMonitor:
     """Declares the sensor that stays away from the voted signal; what consolidation in service does.
 
     Model assumed: at most one faulty sensor. Blind to a fault common to two sensors: they win the vote and the healthy
-    one is declared. Knobs: a smaller threshold or a shorter time detects faster and alarms on noise. Cost: 32 operations.
+    one is declared. Knobs: a smaller threshold or a shorter time detects faster and alarms on noise. Cost: 36 operations.
     It is the baseline that shows what an observer adds.
     """
 

@@ -38,7 +38,7 @@ _ONE_SIDED_95, _BOUNDARY_5 = 2.7055, 2.7055
 """Chi-square of one degree of freedom at 0.90: a one-sided 95 %, and the 5 % of half a chi-square."""
 _TINY = 1e-12
 _STEEPEST = 1e-3
-"""Smallest s [-]: a step between two sizes flown is as good as any steeper one."""
+"""s stays above it [-]: a step between two sizes flown is as good as any steeper one."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,9 +106,8 @@ def detection_curve(size: npt.ArrayLike, found: npt.ArrayLike, run: Any) -> Dete
         )
     fit = _chosen(_Flights(np.log(a), y))
     effect = _design_effect(y, fit.share(np.log(a)), label)
-    lower, upper = fit.floor, fit.ceiling
     return DetectionCurve(
-        flights=len(a), found=int(y.sum()), runs=len(np.unique(label)), floor=lower, ceiling=upper,
+        flights=len(a), found=int(y.sum()), runs=len(np.unique(label)), floor=fit.floor, ceiling=fit.ceiling,
         middle=float(np.exp(fit.m)), spread=fit.s, size_50=fit.size_at(0.5), size_90=fit.size_at(_SHARE),
         size_90_95=_upper_end(fit, effect), design_effect=effect,
     )  # fmt: skip
@@ -164,7 +163,7 @@ def _chosen(flights: _Flights) -> _Fit:
         own = _fitted(flights, floored=floored, capped=capped)
         more = int(floored) + int(capped) - int(best.floored) - int(best.capped)
         gained = 2.0 * (own.log_likelihood - best.log_likelihood)
-        if gained > _BOUNDARY_5 * more and (more > 0 or best.floored or best.capped):
+        if gained > _BOUNDARY_5 * more:
             best = own
     return best
 
@@ -198,12 +197,6 @@ def _least(flights: _Flights, unpack: Callable[[Floats], tuple[float, ...]], *, 
     ]
     found = [minimize(cost, begin, method="L-BFGS-B", bounds=bounds) for begin in begins]
     return min(found, key=lambda one: float(one.fun))
-
-
-def _smoothed(flights: _Flights) -> tuple[Floats, Floats]:
-    """Shares found of the flights up to each size from the smallest, never falling, and the sizes."""
-    share = np.maximum.accumulate(np.cumsum(flights.k) / np.cumsum(flights.n))
-    return share, flights.x
 
 
 def _logistic(z: float) -> float:

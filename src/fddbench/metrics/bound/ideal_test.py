@@ -69,7 +69,9 @@ def _squares(model: IdealModel, deltas: list[dict[str, Floats]], faults: Faults)
     """d^2 by flight and hypothesis, (n_cases, n_hypotheses)."""
     P = _before(model, faults.before)
     n_time, n_cases = next(iter(faults.added.values())).shape
-    e = np.zeros((n_cases, model.A.shape[1], len(deltas)))  # what the filter has taken up of Δ
+    e = np.zeros(
+        (n_cases, model.A.shape[1], len(deltas))
+    )  # what the filter has taken up of Δ, less what has entered the state
     found = np.zeros((n_cases, len(deltas)))
     kept: tuple[Floats, Floats] | None = None
     for k in range(n_time):
@@ -82,7 +84,7 @@ def _squares(model: IdealModel, deltas: list[dict[str, Floats]], faults: Faults)
             P = after
         nu = seen - model.C @ e
         found += np.einsum("cyh,cyz,czh->ch", nu, weight, nu)
-        e = model.A @ (e + K @ nu) + entering
+        e = model.A @ (e + K @ nu) - entering
         if (found.min(axis=1) >= MOST_D**2).all():
             break
     return found
