@@ -179,7 +179,9 @@ def _asking(subs) -> None:  # type: ignore[no-untyped-def]
     one = init.add_mutually_exclusive_group()
     for what in ("detector", "benchmark", "fault", "campaign"):
         one.add_argument(f"--{what}", metavar="NAME", help=f"a small {what} of your own, and a campaign that flies it")
-    _add(subs, "schema", commands.schema)
+    schema = _add(subs, "schema", commands.schema)
+    schema.add_argument("subject", nargs="?", default="", metavar="BENCHMARK", help="name of a benchmark, or designs")
+    schema.add_argument("--output", type=Path, metavar="FILE", help="file to write (default: print it)")
     completion = _add(subs, "completion", completing.completion)
     completion.add_argument("shell", choices=completing.SHELLS, help="bash, zsh or fish")
 
