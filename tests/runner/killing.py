@@ -51,7 +51,7 @@ def _killed_at(number: int, source: str, out: Path) -> int:
         try:
             _fly(source, out)
         except BaseException as error:
-            print(f"{type(error).__name__}: {error}", file=sys.stderr)
+            sys.stderr.write(f"{type(error).__name__}: {error}\n")
             os._exit(1)
         os._exit(0)
     return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
@@ -105,7 +105,7 @@ def main(source: str, folder: Path) -> None:
         shutil.rmtree(shown)
         number += 1
     found["going on"], found["kills"] = code, kills
-    print(json.dumps(found))
+    sys.stdout.write(json.dumps(found))
 
 
 if __name__ == "__main__":
