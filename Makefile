@@ -1,9 +1,9 @@
-# Two commands matter: `make demo` shows what fddbench does, `make test` checks everything.
+# Two commands matter: `make demo` shows what fddbench does, `make test` checks it.
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint wheel lowest scores findings comparison schemas bench clean
+.PHONY: demo test test-slow lint wheel lowest scores findings comparison schemas bench clean
 
 demo: $(VENV)/ready
 	$(BIN)/fddbench run campaigns/smoke.yaml --fresh
@@ -12,7 +12,12 @@ demo: $(VENV)/ready
 	$(BIN)/fddbench report results/smoke_6dof
 
 test: $(VENV)/ready-dev lint
-	$(BIN)/python -m pytest -n auto
+	$(BIN)/python -m pytest -n auto -m "not slow"
+
+# what takes minutes or needs a browser and compilers: `.ci/run` runs it
+test-slow: $(VENV)/ready-dev
+	bash .ci/tools
+	$(BIN)/python -m pytest -n auto -m slow
 
 lint: $(VENV)/ready-dev
 	$(BIN)/ruff format --check src tests detectors

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from fddbench.api.summaries import summary
     from fddbench.api.tables import alarms, columns, detectable, load, load_events
     from fddbench.api.tradeoffs import tradeoff
+    from fddbench.api.trusting import trust
     from fddbench.api.verifying import verify
     from fddbench.api.worst import worst
 
@@ -50,6 +51,7 @@ __all__ = [
     "table_of",
     "tradeoff",
     "tradeoff_picture",
+    "trust",
     "tune",
     "verify",
     "worst",
@@ -71,6 +73,7 @@ _ROOMS = {
     "table_of": "replaying",
     "tradeoff": "tradeoffs",
     "operating_curve": "curves",
+    "trust": "trusting",
     "tune": "designs",
     "verify": "verifying",
     "worst": "worst",

@@ -93,11 +93,21 @@ def _reading(subs) -> None:  # type: ignore[no-untyped-def]
     report.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
     report.add_argument("--output", type=Path, metavar="FILE", help="page to write (default: DIR/report.html)")
 
+    _trusting(report)
+
     scores = _add(subs, "scores", commands.scores)
     scores.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+    _trusting(scores)
 
     finding = _add(subs, "finding", commands.finding)
     finding.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+    _trusting(finding)
+
+
+def _trusting(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--trust", action="store_true", help="run plug-ins in DIR, now and later, though never flown from here"
+    )
 
 
 def _counting(subs) -> None:  # type: ignore[no-untyped-def]
@@ -146,6 +156,7 @@ def _looking(subs) -> None:  # type: ignore[no-untyped-def]
     )
     replay.add_argument("--plot", type=Path, metavar="FILE", help="picture to write: .html, .png, .svg or .pdf")
     replay.add_argument("--to", type=Path, metavar="FILE", help="table to write: .csv, .parquet, .mat or .h5")
+    _trusting(replay)
 
     worst = _add(subs, "worst", looking.worst)
     worst.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
@@ -163,6 +174,7 @@ def _verify(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--seed", type=int, metavar="N", help="of the draw of these flights (default: another every time)"
     )
+    _trusting(command)
 
 
 def _asking(subs) -> None:  # type: ignore[no-untyped-def]

@@ -60,9 +60,15 @@ def benchmark_schema(benchmark: Benchmark, *, called: str = "", designs: Sequenc
         "anyOf": [{"$ref": "#/$defs/design"}, {"$ref": "#/$defs/SweptDesign"}],
     }
     rules = list(name_rules(benchmark, definitions))
-    head = {"$schema": DIALECT, "$id": f"urn:fddbench:campaign:{benchmark.name}"}
-    title = {"title": f"fddbench campaign on {named}", "description": benchmark.about}
-    return {**head, **title, **schema, "allOf": [*schema["allOf"], *rules]}
+    del schema["description"]
+    return {
+        "$schema": DIALECT,
+        "$id": f"urn:fddbench:campaign:{benchmark.name}",
+        "title": f"fddbench campaign on {named}",
+        "description": benchmark.about,
+        **schema,
+        "allOf": [*schema["allOf"], *rules],
+    }
 
 
 def written_schema(choices: tuple[str, ...]) -> Schema:
