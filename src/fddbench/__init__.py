@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from fddbench.api.pages import report
     from fddbench.api.pictures import reconstruction_picture, tradeoff_picture
     from fddbench.api.replaying import table_of
+    from fddbench.api.schemas import schema
     from fddbench.api.summaries import summary
     from fddbench.api.tables import alarms, columns, detectable, load, load_events
     from fddbench.api.tradeoffs import tradeoff
@@ -43,6 +44,7 @@ __all__ = [
     "reconstruction_picture",
     "report",
     "run",
+    "schema",
     "score",
     "signals",
     "summary",
@@ -65,6 +67,7 @@ _ROOMS = {
     "bounds": "bounds",
     "finding": "findings",
     "pod": "detection_curves",
+    "schema": "schemas",
     "summary": "summaries",
     "report": "pages",
     "table_of": "replaying",

@@ -8,6 +8,10 @@ from textwrap import fill
 
 from fddbench import __version__
 from fddbench.cli import aircraft, commands, completing, counting, designing, looking
+from fddbench.cli.checked_numbers import flights as _flights
+from fddbench.cli.checked_numbers import jobs as _jobs
+from fddbench.cli.checked_numbers import probability as _probability
+from fddbench.cli.checked_numbers import share as _share
 
 __all__ = ["parser"]
 
@@ -191,7 +195,9 @@ def _asking(subs) -> None:  # type: ignore[no-untyped-def]
     one = init.add_mutually_exclusive_group()
     for what in ("detector", "benchmark", "fault", "campaign"):
         one.add_argument(f"--{what}", metavar="NAME", help=f"a small {what} of your own, and a campaign that flies it")
-    _add(subs, "schema", commands.schema)
+    schema = _add(subs, "schema", commands.schema)
+    schema.add_argument("subject", nargs="?", default="", metavar="BENCHMARK", help="name of a benchmark, or designs")
+    schema.add_argument("--output", type=Path, metavar="FILE", help="file to write (default: print it)")
     completion = _add(subs, "completion", completing.completion)
     completion.add_argument("shell", choices=completing.SHELLS, help="bash, zsh or fish")
 
@@ -262,39 +268,3 @@ def _modes(command: argparse.ArgumentParser) -> None:
         "aircraft", type=Path, nargs="?", metavar="FILE", help="file of an aircraft (default: the shipped twin-jet)"
     )
     command.add_argument("--feasible", action="store_true", help="only the points that it can fly")
-
-
-def _share(text: str) -> float:
-    """Share of flights."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = -1.0
-    if not 0.0 <= value < 1.0:
-        raise argparse.ArgumentTypeError(f"need a share from 0 to below 1, e.g. 0.01 for 1 %, got {text!r}")
-    return value
-
-
-def _probability(text: str) -> float:
-    """Probability of a false alarm."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = -1.0
-    if not 0.0 < value < 1.0:
-        raise argparse.ArgumentTypeError(f"need a probability above 0 and below 1, e.g. 1e-6, got {text!r}")
-    return value
-
-
-def _flights(text: str) -> int:
-    """Number of flights."""
-    if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= 10_000:
-        raise argparse.ArgumentTypeError(f"need a whole number from 1 to 10000, got {text!r}")
-    return int(text)
-
-
-def _jobs(text: str) -> int:
-    """Number of workers."""
-    if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= 256:
-        raise argparse.ArgumentTypeError(f"need a whole number from 1 to 256, got {text!r}")
-    return int(text)
