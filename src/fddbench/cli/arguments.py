@@ -7,7 +7,7 @@ from pathlib import Path
 from textwrap import fill
 
 from fddbench import __version__
-from fddbench.cli import aircraft, commands, completing, counting, designing, looking
+from fddbench.cli import aircraft, commands, completing, counting, designing, growing, looking
 from fddbench.cli.checked_numbers import flights as _flights
 from fddbench.cli.checked_numbers import jobs as _jobs
 from fddbench.cli.checked_numbers import probability as _probability
@@ -51,6 +51,7 @@ def parser() -> argparse.ArgumentParser:
     _reading(subs)
     _looking(subs)
     _verify(_add(subs, "verify", looking.verify))
+    _growing(subs)
 
     _counting(subs)
     cost = _add(subs, "cost", commands.cost)
@@ -170,6 +171,30 @@ def _looking(subs) -> None:  # type: ignore[no-untyped-def]
     worst.add_argument(
         "--most", type=_jobs, default=3, metavar="N", help="flights of a kind in a scenario (default: 3)"
     )
+
+
+def _growing(subs) -> None:  # type: ignore[no-untyped-def]
+    """Commands by which folders of results grow."""
+    extend = _add(subs, "extend", growing.extend)
+    extend.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+    extend.add_argument("campaign", type=Path, nargs="?", metavar="CAMPAIGN.yaml", help="campaign that says more")
+    extend.add_argument("--runs", type=_jobs, metavar="N", help="Monte-Carlo runs that there are to be in all")
+    extend.add_argument(
+        "--detector", action="append", default=[], metavar="DESIGN",
+        help="name or file of a design to add (may be repeated)",
+    )  # fmt: skip
+    extend.add_argument(
+        "--scenario", action="append", default=[], metavar="NAME",
+        help="add this scenario of CAMPAIGN.yaml alone (may be repeated)",
+    )  # fmt: skip
+    extend.add_argument("--jobs", type=_jobs, default=2, metavar="N", help="worker processes (default: 2)")
+    extend.add_argument("--backend", choices=("auto", "llvm", "numpy"), default="auto", help="as of run")
+    extend.add_argument("--quiet", action="store_true", help="no progress")
+    _trusting(extend)
+
+    merge = _add(subs, "merge", growing.merge)
+    merge.add_argument("folders", type=Path, nargs="+", metavar="DIR", help="folders of results")
+    merge.add_argument("--output", type=Path, required=True, metavar="DIR", help="new folder")
 
 
 def _verify(command: argparse.ArgumentParser) -> None:
