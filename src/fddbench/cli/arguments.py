@@ -7,7 +7,7 @@ from pathlib import Path
 from textwrap import fill
 
 from fddbench import __version__
-from fddbench.cli import aircraft, commands, completing, counting, designing, looking
+from fddbench.cli import aircraft, commands, completing, counting, designing, exporting, looking
 
 __all__ = ["parser"]
 
@@ -57,6 +57,7 @@ def parser() -> argparse.ArgumentParser:
         help="campaign whose benchmark and sample time count (default: the first shipped one that feeds it)",
     )  # fmt: skip
 
+    _export(_add(subs, "export", exporting.export))
     _bound(_add(subs, "bound", commands.bound))
 
     check = _add(subs, "check", commands.check)
@@ -98,6 +99,25 @@ def _reading(subs) -> None:  # type: ignore[no-untyped-def]
 
     finding = _add(subs, "finding", commands.finding)
     finding.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+
+
+def _export(export: argparse.ArgumentParser) -> None:
+    export.add_argument("design", metavar="DESIGN", help="name of a design")
+    export.add_argument(
+        "--campaign", type=Path, metavar="CAMPAIGN.yaml",
+        help="campaign whose signals and sample time count (default: the first shipped one that feeds it)",
+    )  # fmt: skip
+    export.add_argument("--language", choices=("c",), default="c", help="C99 (default, and the only one)")
+    export.add_argument("--output", type=Path, metavar="DIR", help="folder for the files (default: the design's name)")
+    export.add_argument(
+        "--precision", choices=("double", "single"), default="double",
+        help="double: the bits of every flight (default); single: says what it loses",
+    )  # fmt: skip
+    export.add_argument(
+        "--symbols", default=None, metavar="LIBRARY",
+        help="symbol library that it must keep to: scalar, or add,mul,lookup:64,...",
+    )  # fmt: skip
+    export.add_argument("--force", action="store_true", help="replace files that are there")
 
 
 def _counting(subs) -> None:  # type: ignore[no-untyped-def]
