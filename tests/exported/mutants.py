@@ -31,7 +31,11 @@ def _spots(text):
     for found in _INDEX.finditer(text):
         yield *found.span(), f"[{int(found[1]) + 1}U]"
     for found in _CALL.finditer(text):
-        yield found.start(1), found.end(1), {"fdd_max": "fdd_min", "fdd_min": "fdd_max", "fabs": "sqrt", "sqrt": "fabs"}[found[1]]
+        yield (
+            found.start(1),
+            found.end(1),
+            {"fdd_max": "fdd_min", "fdd_min": "fdd_max", "fabs": "sqrt", "sqrt": "fabs"}[found[1]],
+        )
     members = sorted({found[0] for found in _MEMBER.finditer(text)})
     for found in _MEMBER.finditer(text):
         others = [other for other in members if other != found[0] and other.split("->")[0] == found[1]]

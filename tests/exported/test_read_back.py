@@ -29,7 +29,9 @@ def test_a_primitive_that_differs_is_refused(voting_monitor):
 
 def test_an_elementary_function_that_differs_is_found():
     interface, header, source = exported("smoke", "sliding_mode_published")
-    (said,) = prove(interface, header, source.replace("1.66666666666666324348e-01", "1.666666666666664e-01")).differences
+    (said,) = prove(
+        interface, header, source.replace("1.66666666666666324348e-01", "1.666666666666664e-01")
+    ).differences
     assert said.startswith("fdd_sin is ")
 
 
@@ -56,7 +58,11 @@ def test_every_design_is_its_c():
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("campaign", "design"),
-    [("b747_comparison", "hinf_filter_b747"), ("yaw_rate_banks_tuning", "multiple_model"), ("yaw_rate_best", "yaw_rate_best")],
+    [
+        ("b747_comparison", "hinf_filter_b747"),
+        ("yaw_rate_banks_tuning", "multiple_model"),
+        ("yaw_rate_best", "yaw_rate_best"),
+    ],
 )
 def test_many_planted_faults_are_found(campaign, design):
     interface, header, source = exported(campaign, design)

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-__all__ = ["export"]
+__all__ = ["arguments", "export"]
 
 
 def export(args: argparse.Namespace) -> int:
@@ -49,3 +49,23 @@ def _symbols(text: str | None) -> Any:
             raise FddbenchError(f"--symbols: a size is a whole number, as in lookup:64; got {part!r}")
         found.append({name: int(size)} if colon else name)
     return found if len(found) > 1 else text
+
+
+def arguments(export: argparse.ArgumentParser) -> None:
+    """What the command takes."""
+    export.add_argument("design", metavar="DESIGN", help="name of a design")
+    export.add_argument(
+        "--campaign", type=Path, metavar="CAMPAIGN.yaml",
+        help="campaign whose signals and sample time count (default: the first shipped one that feeds it)",
+    )  # fmt: skip
+    export.add_argument("--language", choices=("c",), default="c", help="C99 (default, and the only one)")
+    export.add_argument("--output", type=Path, metavar="DIR", help="folder for the files (default: the design's name)")
+    export.add_argument(
+        "--precision", choices=("double", "single"), default="double",
+        help="double: the bits of every flight (default); single: says what it loses",
+    )  # fmt: skip
+    export.add_argument(
+        "--symbols", default=None, metavar="LIBRARY",
+        help="symbol library that it must keep to: scalar, or add,mul,lookup:64,...",
+    )  # fmt: skip
+    export.add_argument("--force", action="store_true", help="replace files that are there")
