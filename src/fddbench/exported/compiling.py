@@ -12,7 +12,7 @@ from functools import cache
 from hashlib import sha256
 from pathlib import Path
 
-from fddbench.blocks.cache import folder
+from fddbench import private
 from fddbench.errors import FddbenchError
 
 __all__ = ["FLAGS", "STRICT", "CompileError", "Compiler", "built", "compiler"]
@@ -101,7 +101,7 @@ def built(sources: Mapping[str, str], by: Compiler, main: Sequence[str] = ()) ->
     """
     parts = [*by.command, by.version, *by.flags, *(f"{name}\0{text}" for name, text in sorted(sources.items())), *main]
     kept = _place() / f"{sha256(chr(0).join(parts).encode()).hexdigest()[:32]}.flown"
-    if not kept.exists():
+    if not kept.exists() or private.trouble(kept):
         with tempfile.TemporaryDirectory(dir=kept.parent) as aside:
             for name, text in sources.items():
                 (Path(aside) / name).parent.mkdir(parents=True, exist_ok=True)
@@ -132,11 +132,11 @@ def compile_in(where: Path, by: Compiler, files: Sequence[str], output: str) -> 
 
 
 def _place() -> Path:
-    """Where programs are kept; a folder of this process where nothing can be."""
+    """Where programs are kept: with machine code, in a folder that is this user's alone; else in one of this process."""
     try:
-        folder().mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder()):
-            return folder()
+        where = private.made(private.folder())
+        with tempfile.TemporaryFile(dir=where):
+            return where
     except OSError:
         return _of_this_process()
 

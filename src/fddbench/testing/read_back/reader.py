@@ -138,10 +138,10 @@ class Reader:
             raise ReadBackError(f"index {index} of an array of {len(array)}")
 
     def _value(self, node: Any, own: dict[str, Any]) -> Any:
-        reader = getattr(self, f"_of_{type(node).__name__.lower()}", None)
+        reader = _READERS.get(type(node).__name__)
         if reader is None:
             raise ReadBackError(f"an expression of kind {type(node).__name__}, which an export never has")
-        return reader(node, own)
+        return reader(self, node, own)
 
     def _of_constant(self, node: Any, _: dict[str, Any]) -> Any:
         if node.type in {"double", "float"}:
@@ -231,3 +231,17 @@ class Reader:
     def _sized(self, rows: list[Any], n: int) -> None:
         if len(rows) != n:
             raise ReadBackError(f"{n} entries of an array of {len(rows)}")
+
+
+_READERS: dict[str, Callable[[Reader, Any, dict[str, Any]], Any]] = {
+    "Constant": Reader._of_constant,
+    "ID": Reader._of_id,
+    "StructRef": Reader._of_structref,
+    "ArrayRef": Reader._of_arrayref,
+    "Cast": Reader._of_cast,
+    "CompoundLiteral": Reader._of_compoundliteral,
+    "UnaryOp": Reader._of_unaryop,
+    "BinaryOp": Reader._of_binaryop,
+    "TernaryOp": Reader._of_ternaryop,
+    "FuncCall": Reader._of_funccall,
+}
