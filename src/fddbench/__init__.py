@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from fddbench.api.curves import operating_curve
     from fddbench.api.designs import tune
     from fddbench.api.detection_curves import pod
+    from fddbench.api.exporting import export
     from fddbench.api.extending import extend
     from fddbench.api.findings import finding
     from fddbench.api.flights import score, signals
@@ -36,6 +37,7 @@ __all__ = [
     "columns",
     "compare",
     "detectable",
+    "export",
     "extend",
     "finding",
     "load",
@@ -71,6 +73,7 @@ _ROOMS = {
     "bounds": "bounds",
     "extend": "extending",
     "merge": "merging",
+    "export": "exporting",
     "finding": "findings",
     "pod": "detection_curves",
     "schema": "schemas",
