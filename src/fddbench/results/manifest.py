@@ -69,10 +69,14 @@ def append(folder: Path, shard: Shard) -> None:
     """Add one line, durably."""
     # never through a link: what it points to is somebody else's
     handle = os.open(folder / _NAME, os.O_WRONLY | os.O_APPEND | getattr(os, "O_NOFOLLOW", 0))
-    with os.fdopen(handle, "ab") as file:
-        file.write(_line(shard))
-        file.flush()
-        os.fsync(file.fileno())
+    try:
+        with os.fdopen(handle, "ab") as file:
+            file.write(_line(shard))
+            file.flush()
+            os.fsync(file.fileno())
+    except OSError as error:
+        error.filename = error.filename or str(folder / _NAME)
+        raise
 
 
 def keep(folder: Path, kept: Sequence[Shard]) -> None:
