@@ -5,7 +5,7 @@ import pytest
 
 from fddbench.interfaces import Bands, Response
 from fddbench.reporting.bands import asked_of, band_pictures, names_in
-from fddbench.reporting.page import page_html
+from fddbench.reporting.page.writing import page_html
 
 
 def bands(onset_s=None):

@@ -4,7 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fddbench.reporting.page import page_html, write_page
+from fddbench.reporting.page.writing import page_html, write_page
 
 LOST = dict.fromkeys(range(6), ("infeasible", "cannot hold <cruise>"))
 

@@ -2,10 +2,10 @@ from dataclasses import replace
 
 import numpy as np
 import pandas as pd
+from fddbench.reporting.figures import detection_curve, envelope, label
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fddbench.reporting.figures import detection_curve, envelope, label
 from fddbench.reporting.pictures import thinned
 from fddbench.reporting.signals import signal_panels, window, worst_case
 

@@ -9,10 +9,14 @@ import pandas as pd
 import yaml
 
 from fddbench.api.bounds import bounds_of
+from fddbench.api.curves import operating_of
 from fddbench.api.detectability import detectable_of
+from fddbench.api.findings import swept_columns
 from fddbench.campaign.meaning import Campaign
 from fddbench.reporting.bands import names_in
-from fddbench.reporting.page import ReportData
+from fddbench.reporting.page.data import ReportData
+from fddbench.reporting.page.promises import promise_of
+from fddbench.reporting.page.traces import MOST_SCENARIOS
 from fddbench.reporting.published import iterations_for, published_for
 from fddbench.reporting.reasons import reason_table
 from fddbench.results.folder import provenance_of
@@ -64,6 +68,7 @@ def report_data(folder: Path) -> ReportData:
                 "load": loads[d.name],
                 "sees": assembly.detectors[d.name].sees,
                 "gamma": d.gamma,
+                "promise": promise_of(yaml.safe_load(d.text) or {}),
             }
             for d in campaign.designs
         ],
@@ -89,6 +94,8 @@ def report_data(folder: Path) -> ReportData:
         detectable=detectable_of(rows, campaign),
         bounds=bounds_of(campaign),
         consequences=assembly.consequences.announced,
+        swept=swept_columns(rows, campaign),
+        operating=operating_of(rows, campaign),
     )
 
 
@@ -99,9 +106,17 @@ def _replayed(folder: Path, campaign: Campaign) -> dict[str, str]:
 
 
 def _pictured(rows: pd.DataFrame, content: Mapping[str, Any]) -> pd.DataFrame:
-    """Rows of the scenarios whose signals are shown."""
-    named = (content.get("report") or {}).get("scenarios")
-    return rows[np.asarray(rows["scenario"].isin(named), dtype=bool)] if named else rows
+    """Rows of the scenarios whose signals are shown: those that the campaign names, else those that go worst."""
+    named = (content.get("report") or {}).get("scenarios") or _worst_scenarios(rows)
+    return rows[np.asarray(rows["scenario"].isin(named), dtype=bool)]
+
+
+def _worst_scenarios(rows: pd.DataFrame) -> list[str]:
+    """So many scenarios as a page shows, those with the largest share of failed rows; in the order of the campaign."""
+    failed = rows["outcome"].isin(["false_alarm", "wrong_site", "late", "missed"]).astype("float64")
+    shares = failed.groupby(rows["scenario"], sort=False).mean().sort_values(ascending=False, kind="stable")
+    chosen = set(shares.index[:MOST_SCENARIOS])
+    return [str(name) for name in rows["scenario"].unique() if name in chosen]
 
 
 def _bands(campaign: Campaign, rows: pd.DataFrame, content: Mapping[str, Any]) -> dict[str, Any]:

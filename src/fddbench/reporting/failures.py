@@ -9,8 +9,8 @@ import pandas as pd
 
 from fddbench.interfaces import Floats
 from fddbench.metrics.shares import decided, share
-from fddbench.reporting.figures import label
 from fddbench.reporting.formats import DASH, count, interval, percent, present, rate, seconds, short
+from fddbench.reporting.labels import label
 from fddbench.reporting.tables import Cell
 
 __all__ = ["WORST", "failure_tables", "worst_lines"]
