@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test test-slow lint wheel lowest scores findings comparison bench clean
+.PHONY: demo test test-slow lint wheel lowest scores findings comparison schemas bench clean
 
 demo: $(VENV)/ready
 	$(BIN)/fddbench run campaigns/smoke.yaml --fresh
@@ -51,6 +51,11 @@ comparison: $(VENV)/ready
 	for design in $$(sed -n 's/^  - \([a-z_0-9]*\)$$/\1/p' campaigns/yaw_rate_comparison_tuning.yaml); do \
 	  $(BIN)/fddbench tune $$design yaw_rate_comparison_tuning --false-alarm-rate 0.01 --by factor \
 	    --output detectors/$${design}_compared.yaml --force || exit 1; done
+
+# the schemas that the campaigns name to an editor; after a new name, range or key
+schemas: $(VENV)/ready
+	for path in campaigns/schema/*.json; do name=$$(basename $$path .json); \
+	  $(BIN)/fddbench schema $$name --output campaigns/schema/$$name.json || exit 1; done
 
 # how fast the engine is beside others, on a machine that does nothing else
 bench: $(VENV)/ready-bench

@@ -19,9 +19,11 @@ if TYPE_CHECKING:
     from fddbench.api.pages import report
     from fddbench.api.pictures import reconstruction_picture, tradeoff_picture
     from fddbench.api.replaying import table_of
+    from fddbench.api.schemas import schema
     from fddbench.api.summaries import summary
     from fddbench.api.tables import alarms, columns, detectable, load, load_events
     from fddbench.api.tradeoffs import tradeoff
+    from fddbench.api.trusting import trust
     from fddbench.api.verifying import verify
     from fddbench.api.worst import worst
 
@@ -42,12 +44,14 @@ __all__ = [
     "reconstruction_picture",
     "report",
     "run",
+    "schema",
     "score",
     "signals",
     "summary",
     "table_of",
     "tradeoff",
     "tradeoff_picture",
+    "trust",
     "tune",
     "verify",
     "worst",
@@ -63,11 +67,13 @@ _ROOMS = {
     "bounds": "bounds",
     "finding": "findings",
     "pod": "detection_curves",
+    "schema": "schemas",
     "summary": "summaries",
     "report": "pages",
     "table_of": "replaying",
     "tradeoff": "tradeoffs",
     "operating_curve": "curves",
+    "trust": "trusting",
     "tune": "designs",
     "verify": "verifying",
     "worst": "worst",

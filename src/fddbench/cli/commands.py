@@ -262,11 +262,22 @@ def init(args: argparse.Namespace) -> int:
 
 
 def schema(args: argparse.Namespace) -> int:
-    """Print the JSON schema of a campaign, so that an editor completes its keys."""
-    import json
+    """Print the JSON schema of a campaign, so that an editor completes, explains and checks its keys.
 
-    from fddbench.campaign.schema import campaign_schema
+    That of a benchmark (or of mine.py:Mine, a file in this folder) knows all its names, ranges and units; without one the keys
+    of all benchmarks; `designs` is that of design files. An editor finds it by a comment in the campaign.
+    """
+    from fddbench.api.schemas import HEADER, schema_text
 
-    del args
-    print(json.dumps(campaign_schema(), indent=2))
+    text = schema_text(args.subject)
+    if args.output is None:
+        print(text, end="")
+        return 0
+    try:
+        args.output.parent.mkdir(parents=True, exist_ok=True)
+        args.output.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise FddbenchError(f"cannot write {args.output}: {error.strerror}; name another file with --output") from error
+    print(args.output)
+    print(f"next: a comment in files beside it, {HEADER}{args.output.name}", file=sys.stderr)
     return 0
