@@ -13,8 +13,8 @@ count is a lower bound only.
 
 References
 ----------
-Gooley, Leisenring, Crowley and Storer (1999), Estimation of failure probabilities in the presence of competing risks, Statistics
-in Medicine 18(6), 695-706.
+Gooley, Leisenring, Crowley and Storer (1999), Estimation of failure probabilities in the presence of competing risks,
+Statistics in Medicine 18(6), 695-706.
 """
 
 from dataclasses import dataclass

@@ -106,7 +106,7 @@ def _verdict(ranks: Sequence[Rank], second: PairedShares | None) -> Said:
         return [(f"{'The detector is' if len(decided) == 1 else who + ' are'} never right", True),
                 (f" in time in {n}. ", False)]  # fmt: skip
     if len(decided) == 1:
-        return [(best.detector, True), (" is right in time in ", False), *_share(best)]
+        return [(best.detector, True), (": ", False), *_share(best)]
     return _best(decided, second)
 
 

@@ -110,7 +110,7 @@ def _paired(columns: Columns, best: int | None) -> dict[tuple[int, int], tuple[P
     for d in range(len(columns.detectors)):
         own = {s: beside_best(columns, best, d, s) for s in range(len(columns.scenarios))} if d != best else {}
         own = {s: each for s, each in own.items() if each.pairs}
-        adjusted = holm([np.nan if each.p_value is None else each.p_value for each in own.values()]) if own else []
+        adjusted = holm([np.nan if each.p_value is None else each.p_value for each in own.values()])
         for (s, each), p in zip(own.items(), adjusted, strict=True):
             found[s, d] = each, None if np.isnan(p) else float(p)
     return found

@@ -94,7 +94,7 @@ class Columns:
     @property
     def decided(self) -> npt.NDArray[np.bool_]:
         """Rows with a score that is not undecided."""
-        return self.ok & (self.texts("outcome") != "undecided")
+        return np.asarray(self.ok & (self.texts("outcome") != "undecided"), dtype=bool)
 
     @property
     def failed(self) -> npt.NDArray[np.bool_]:

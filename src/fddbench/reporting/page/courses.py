@@ -1,6 +1,7 @@
 """How the right share goes over what a campaign varies, and where healthy flights are loudest."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -35,7 +36,7 @@ def courses(columns: Columns, swept: Sequence[str]) -> list[Course]:
     return found[:2]
 
 
-def _right(columns: Columns, chosen: "np.ndarray") -> float | None:  # type: ignore[type-arg]
+def _right(columns: Columns, chosen: "np.ndarray[Any, Any]") -> float | None:
     n = int(chosen.sum())
     return 100.0 * float(np.sum(columns.texts("outcome")[chosen] == "right")) / n if n else None
 

@@ -118,8 +118,8 @@ def _cut(columns: Columns, places: Index, name: str) -> _Cut | None:
     if len(own) < 2:
         return None
     if len(own) <= _MOST_VALUES:
-        return _Cut(name, np.arange(len(own) + 1) - 0.5, own)
-    return _Cut(name, np.linspace(own[0], own[-1], _PARTS + 1), None)
+        return _Cut(name, np.arange(len(own) + 1, dtype=np.float64) - 0.5, own.astype(np.float64))
+    return _Cut(name, np.linspace(own[0], own[-1], _PARTS + 1).astype(np.float64), None)
 
 
 def _counted(columns: Columns, places: Index, cuts: tuple[_Cut, _Cut]) -> Index:

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from fddbench.metrics.association import Association, Parts
+from fddbench.metrics.paired import PairedShares
 from fddbench.reporting.formats import count, interval, percent, present, rate, seconds, short
 from fddbench.reporting.labels import label
 from fddbench.reporting.page.cells import Cell
@@ -77,7 +78,7 @@ def _cell(cell: Cell) -> Data:
     if cell.worst:
         found["w"] = list(cell.worst)
     if cell.paired is not None:
-        found["b"] = _paired(cell)
+        found["b"] = _paired(cell.paired, cell.p_holm)
     if cell.size is not None:
         found["k"] = _size(cell.size)
     found["x"] = _quality(line)
@@ -107,13 +108,9 @@ def _association(each: Association) -> list[Any]:
     ]
 
 
-def _paired(cell: Cell) -> list[Any]:
-    own = cell.paired
-    assert own is not None
-    return [
-        _percent(own.difference), _percent(own.low), _percent(own.high), None if cell.p_holm is None else float(f"{cell.p_holm:.2g}"),
-        own.only_a, own.only_b, own.pairs,
-    ]  # fmt: skip
+def _paired(own: PairedShares, p_holm: float | None) -> list[Any]:
+    ends = [_percent(end) for end in (own.difference, own.low, own.high)]
+    return [*ends, None if p_holm is None else float(f"{p_holm:.2g}"), own.only_a, own.only_b, own.pairs]
 
 
 def _size(own: SizeCurve) -> list[Any]:

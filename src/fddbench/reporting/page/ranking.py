@@ -2,6 +2,7 @@
 
 from collections.abc import Collection
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -99,7 +100,7 @@ def _order(line: Rank) -> tuple[bool, float, float, float, int]:
     return line.voted, -share, wrong, line.alarms / max(line.distinct_flights, 1), line.number
 
 
-def _weakest(columns: Columns, own: "np.ndarray") -> Weakest | None:  # type: ignore[type-arg]
+def _weakest(columns: Columns, own: "np.ndarray[Any, Any]") -> Weakest | None:
     """Of scenarios with equal shares that with most failures, then the first."""
     outcome = columns.texts("outcome")[own].astype(str)
     sure = outcome != "undecided"

@@ -1,4 +1,4 @@
-"""Signals of the scenarios that go worst: the density of a sample of flights, the worst five, and one flight for all detectors."""
+"""Signals of the scenarios that go worst: density of a sample of flights, the worst five, one flight for all detectors."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from fddbench.interfaces import Floats
 from fddbench.metrics.incidence import Incidence
 from fddbench.reporting.formats import interval
 from fddbench.reporting.names import shortened
@@ -100,7 +101,7 @@ def legend(names: Mapping[str, int], *, x: float, y: float, width: float) -> lis
     return marks
 
 
-def _steps(plot: Plot, own: Incidence, share: "np.ndarray") -> list[tuple[float, float]]:  # type: ignore[type-arg]
+def _steps(plot: Plot, own: Incidence, share: Floats) -> list[tuple[float, float]]:
     """Corners of a step curve from the onset to where everything is seen."""
     start = plot.x.low
     points = plot.at(start, 0.0)

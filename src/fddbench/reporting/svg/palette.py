@@ -23,7 +23,6 @@ _COLOURS: Mapping[str, tuple[str, str]] = {
 SERIES = 8
 """Colours of detectors before they begin again, then with other dashes."""
 
-_DASHES = ("", "7 3", "2 2", "8 3 2 3")
 OUTCOME_LOOKS = {"right": "o0", "quiet": "o0", "late": "o1", "undecided": "o2", "missed": "o3", "wrong_site": "o4",
                  "false_alarm": "o5"}  # fmt: skip
 """Look of every outcome, in the order in which bars stack them."""
@@ -45,19 +44,35 @@ class Look:
         return _COLOURS[self.colour][0]
 
 
+def _dashes(i: int) -> str:
+    """Dashes of line `i`: with its colour they come again only after 32."""
+    return ("", "7 3", "2 2", "8 3 2 3")[(i % SERIES + i // SERIES) % 4]
+
+
 LOOKS: Mapping[str, Look] = {
-    "t": Look("ink", fills=True), "ts": Look("soft", fills=True), "ax": Look("soft"), "gl": Look("line"),
-    "lim": Look("bad", dashes="5 3"), "on": Look("soft", dashes="2 3"), "ci": Look("ink", width=2.0), "ik": Look("ink", width=1.1),
-    "ht": Look("soft", width=0.8), "no": Look("line", fills=True), "one": Look("ink", width=1.3), "few": Look("ink", width=0.5, opacity=0.45),
-    "thr": Look("ink", width=1.1, dashes="5 3"), "prm": Look("s1", width=1.5, dashes="7 4"), "wr": Look("o4", width=1.6, dashes="1 3"),
+    "t": Look("ink", fills=True),
+    "ts": Look("soft", fills=True),
+    "no": Look("line", fills=True),
+    "ax": Look("soft"),
+    "gl": Look("line"),
+    "on": Look("soft", dashes="2 3"),
+    "ht": Look("soft", width=0.8),
+    "lim": Look("bad", dashes="5 3"),
+    "wr": Look("o4", width=1.6, dashes="1 3"),
+    "ci": Look("ink", width=2.0),
+    "ik": Look("ink", width=1.1),
+    "one": Look("ink", width=1.3),
+    "few": Look("ink", width=0.5, opacity=0.45),
+    "thr": Look("ink", width=1.1, dashes="5 3"),
+    "prm": Look("s1", width=1.5, dashes="7 4"),
     **{f"o{i}": Look(f"o{i}", fills=True) for i in range(6)},
-    **{f"s{i}": Look(f"s{i % SERIES}", width=2.0, dashes=_DASHES[(i % SERIES + i // SERIES) % 4]) for i in range(4 * SERIES)},
+    **{f"s{i}": Look(f"s{i % SERIES}", width=2.0, dashes=_dashes(i)) for i in range(4 * SERIES)},
     **{f"d{i}": Look(f"s{i}", fills=True) for i in range(SERIES)},
     **{f"b{i}": Look(f"s{i}", fills=True, opacity=0.16) for i in range(SERIES)},
     **{f"e{i}": Look(f"s{i}", width=2.0) for i in range(SERIES)},
     **{f"n{i}": Look(f"s{i}", width=1.0) for i in range(SERIES)},
-}  # fmt: skip
-"""Looks by name: t text, ax axis, gl grid line, lim limit, o outcomes, s series, d dots, b bands, e error bars, n thin lines."""
+}
+"""Looks by name: t text, ax axis, gl grid line, lim limit, o outcomes, s series, d dots, b bands, e error bars, n thin."""
 
 
 def series(i: int) -> str:

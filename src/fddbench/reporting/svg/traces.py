@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 
@@ -12,6 +13,8 @@ from fddbench.reporting.svg.scene import Mark, Path, Point, Scene, Text
 __all__ = ["Panel", "coarse", "panel_scene"]
 
 _WIDTH, _HEIGHT = 330.0, 100.0
+_MOST = 1e100
+"""Numbers beyond it are drawn at the edge: no axis holds them."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -55,10 +58,10 @@ def coarse(time_s: Floats, values: Floats, points: int) -> tuple[Floats, Floats]
         return time_s, values
     cuts = np.linspace(0, len(values), blocks + 1).astype(np.int64)
     places: list[int] = []
-    for a, b in zip(cuts[:-1], cuts[1:], strict=True):
+    for a, b in pairwise(cuts.tolist()):
         part = values[a:b]
         if np.isnan(part).all():
-            places.append(int(a))
+            places.append(a)
             continue
         places += sorted({int(a + np.nanargmin(part)), int(a + np.nanargmax(part))})
     return time_s[places], values[places]
@@ -66,8 +69,8 @@ def coarse(time_s: Floats, values: Floats, points: int) -> tuple[Floats, Floats]
 
 def panel_scene(panel: Panel, *, points: int = 120) -> Scene:
     """Picture of a panel; `points` bounds how many each line has."""
-    finite = [v for v in (*(end for pair in panel.bands for end in pair), *(values for _, values in panel.lines))]
-    known = np.concatenate([v[np.isfinite(v)] for v in finite]) if finite else np.zeros(0)
+    every = [*(end for pair in panel.bands for end in pair), *(values for _, values in panel.lines)]
+    known = np.concatenate([v[np.abs(v) < _MOST] for v in every]) if every else np.zeros(0)
     low, high = (float(known.min()), float(known.max())) if len(known) else (0.0, 1.0)
     room = 0.04 * (high - low)
     plot = Plot(
