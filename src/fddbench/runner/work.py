@@ -33,7 +33,7 @@ Columns = dict[str, pa.Array]
 Cases = npt.NDArray[np.int64]
 
 _SHARED = ("scenario", "point", "level", "run", "detector", "status", "reason")
-_making = Lock()
+_making, _writing = Lock(), Lock()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,7 +71,8 @@ def lent(flyer: Flyer, work: Work) -> Iterator[None]:
     try:
         yield
     finally:
-        del _lent[work]
+        with _writing:  # a thread that is writing comes to its end, and none begins
+            del _lent[work]
 
 
 def flyer_of(work: Work) -> Flyer:
@@ -93,8 +94,17 @@ def _flyer(work: Work) -> Flyer:
 
 def fly_and_write(work: Work, case_spans: Spans) -> Shard:
     """Fly the cases and write their shard into the folder of results."""
-    cases, fingerprint = expand(case_spans), work.fingerprint
+    cases, in_thread = expand(case_spans), work in _lent
     rows, events = rows_and_events(flyer_of(work), cases, work.detectors)
+    with _writing:
+        if in_thread and work not in _lent:
+            raise InterruptedError("the run that gave out this work has ended")
+        return _write(work, cases, rows, events)
+
+
+def _write(work: Work, cases: Cases, rows: pa.Table, events: pa.Table) -> Shard:
+    """Write the shard of some cases."""
+    fingerprint = work.fingerprint
     name = "-".join(filter(None, [f"{cases[0]:08d}-{cases[-1]:08d}-{len(cases)}", work.label])) + ".parquet"
     path = Path(work.folder)
     events_sha256 = write_table(path / "events" / name, events, fingerprint=fingerprint) if len(events) else None
