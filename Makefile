@@ -1,9 +1,9 @@
-# Two commands matter: `make demo` shows what fddbench does, `make test` checks everything.
+# Two commands matter: `make demo` shows what fddbench does, `make test` checks it.
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint wheel lowest scores findings comparison bench clean
+.PHONY: demo test test-slow lint wheel lowest scores findings comparison schemas bench clean
 
 demo: $(VENV)/ready
 	$(BIN)/fddbench run campaigns/smoke.yaml --fresh
@@ -12,7 +12,12 @@ demo: $(VENV)/ready
 	$(BIN)/fddbench report results/smoke_6dof
 
 test: $(VENV)/ready-dev lint
-	$(BIN)/python -m pytest -n auto
+	$(BIN)/python -m pytest -n auto -m "not slow"
+
+# what takes minutes or needs a browser and compilers: `.ci/run` runs it
+test-slow: $(VENV)/ready-dev
+	bash .ci/tools
+	$(BIN)/python -m pytest -n auto -m slow
 
 lint: $(VENV)/ready-dev
 	$(BIN)/ruff format --check src tests detectors
@@ -46,6 +51,11 @@ comparison: $(VENV)/ready
 	for design in $$(sed -n 's/^  - \([a-z_0-9]*\)$$/\1/p' campaigns/yaw_rate_comparison_tuning.yaml); do \
 	  $(BIN)/fddbench tune $$design yaw_rate_comparison_tuning --false-alarm-rate 0.01 --by factor \
 	    --output detectors/$${design}_compared.yaml --force || exit 1; done
+
+# the schemas that the campaigns name to an editor; after a new name, range or key
+schemas: $(VENV)/ready
+	for path in campaigns/schema/*.json; do name=$$(basename $$path .json); \
+	  $(BIN)/fddbench schema $$name --output campaigns/schema/$$name.json || exit 1; done
 
 # how fast the engine is beside others, on a machine that does nothing else
 bench: $(VENV)/ready-bench

@@ -14,14 +14,17 @@ if TYPE_CHECKING:
     from fddbench.api.curves import operating_curve
     from fddbench.api.designs import tune
     from fddbench.api.detection_curves import pod
+    from fddbench.api.exporting import export
     from fddbench.api.findings import finding
     from fddbench.api.flights import score, signals
     from fddbench.api.pages import report
     from fddbench.api.pictures import reconstruction_picture, tradeoff_picture
     from fddbench.api.replaying import table_of
+    from fddbench.api.schemas import schema
     from fddbench.api.summaries import summary
     from fddbench.api.tables import alarms, columns, detectable, load, load_events
     from fddbench.api.tradeoffs import tradeoff
+    from fddbench.api.trusting import trust
     from fddbench.api.verifying import verify
     from fddbench.api.worst import worst
 
@@ -32,6 +35,7 @@ __all__ = [
     "columns",
     "compare",
     "detectable",
+    "export",
     "finding",
     "load",
     "load_events",
@@ -42,12 +46,14 @@ __all__ = [
     "reconstruction_picture",
     "report",
     "run",
+    "schema",
     "score",
     "signals",
     "summary",
     "table_of",
     "tradeoff",
     "tradeoff_picture",
+    "trust",
     "tune",
     "verify",
     "worst",
@@ -61,13 +67,16 @@ _ROOMS = {
     **dict.fromkeys(("reconstruction_picture", "tradeoff_picture"), "pictures"),
     "compare": "comparing",
     "bounds": "bounds",
+    "export": "exporting",
     "finding": "findings",
     "pod": "detection_curves",
+    "schema": "schemas",
     "summary": "summaries",
     "report": "pages",
     "table_of": "replaying",
     "tradeoff": "tradeoffs",
     "operating_curve": "curves",
+    "trust": "trusting",
     "tune": "designs",
     "verify": "verifying",
     "worst": "worst",

@@ -24,6 +24,7 @@ __all__ = [
     "ResultsError",
     "ResultsWarning",
     "UnknownNameError",
+    "UntrustedError",
     "did_you_mean",
     "place_of",
     "raise_interrupt",
@@ -171,6 +172,11 @@ class ResultsError(FddbenchError):
     def __str__(self) -> str:
         """The message as written."""
         return self.message
+
+
+@dataclass(eq=False)
+class UntrustedError(ResultsError):
+    """A folder of results holds code that was not flown from here and is not run."""
 
 
 class ResultsWarning(UserWarning):

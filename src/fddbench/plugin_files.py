@@ -12,6 +12,7 @@ import sys
 import traceback
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
+from contextvars import ContextVar
 from dataclasses import dataclass, field
 from hashlib import sha256
 from importlib.machinery import ModuleSpec, PathFinder
@@ -22,7 +23,7 @@ from typing import Any
 
 from fddbench.errors import FddbenchError, reason_of
 
-__all__ = ["LoadedClass", "is_file_kind", "load_class", "noticed_reads"]
+__all__ = ["LoadedClass", "is_file_kind", "load_class", "none_run", "noticed_reads"]
 
 _PATTERN = re.compile(r"([A-Za-z_][A-Za-z0-9_]*\.py):([A-Za-z_][A-Za-z0-9_]*)")
 _LARGEST = 200_000_000
@@ -48,11 +49,23 @@ class _Loaded:
 _loaded: dict[tuple[str, str], list[_Loaded]] = {}
 """By the sha256 of the file and its place: each set of siblings it has been loaded with."""
 _lock = RLock()
+_refused: ContextVar[list[str] | None] = ContextVar("_refused", default=None)
 
 
 def is_file_kind(name: str) -> bool:
     """Whether a kind names a file rather than a registered member."""
     return ".py" in name or ":" in name
+
+
+@contextmanager
+def none_run() -> Iterator[list[str]]:
+    """Run no file of anybody's meanwhile; gives the names of those that were asked for."""
+    asked: list[str] = []
+    token = _refused.set(asked)
+    try:
+        yield asked
+    finally:
+        _refused.reset(token)
 
 
 def load_class(name: str, folder: Path) -> LoadedClass:
@@ -66,6 +79,10 @@ def load_class(name: str, folder: Path) -> LoadedClass:
     match = _PATTERN.fullmatch(name)
     if not match:
         raise FddbenchError(f"{name!r} is no plug-in; write FILE.py:ClassName for a file beside this one")
+    refused = _refused.get()
+    if refused is not None:
+        refused.append(match[1])
+        raise FddbenchError(f"{match[1]} is not run")
     path = folder / match[1]
     if not path.is_file() or not path.resolve().is_relative_to(folder.resolve()):
         raise FddbenchError(f"no file {match[1]} in {folder}; a plug-in lies beside the file that names it")

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import yaml
 
-from fddbench import gallery
-from fddbench.blocks import cache, kernel
+from fddbench import gallery, private
+from fddbench.blocks import kernel
 from fddbench.blocks.integrate import rk4
 from fddbench.blocks.layout import Rows
 from fddbench.blocks.linear import affine, column, product
@@ -88,7 +88,7 @@ def substeps(n: int) -> Callable[..., Mapping[str, Rows]]:
 
 def _compiled(program: Program) -> tuple[kernel.Kernel, float]:
     """Kernel compiled anew, and the CPU time that took."""
-    for file in cache.folder().glob("*.o"):
+    for file in private.folder().glob("*.o"):
         file.unlink()
     begun = time.process_time()
     made = kernel.build(program, backend="llvm")

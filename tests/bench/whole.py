@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fddbench.blocks import cache
+from fddbench import private
 from fddbench.campaign.load import read_campaign
 from fddbench.runner.assembling import assemble
 from fddbench.runner.assembly import Assembly, Batch
@@ -106,7 +106,7 @@ def _compile(folder: Path) -> Iterator[Line]:
     assembly = assembled(folder, 64, 60.0)
     cold, warm, all_cold, all_warm = [], [], [], []
     for _ in range(5):
-        for file in cache.folder().glob("*.o"):
+        for file in private.folder().glob("*.o"):
             file.unlink()
         for build, everything in ((cold, all_cold), (warm, all_warm)):
             begun = time.process_time()

@@ -6,9 +6,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from fddbench import private
 from fddbench.blocks import cache, llvm
 from fddbench.blocks.kernel import Addresses, build
 from fddbench.blocks.program import trace
+from fddbench.errors import ResultsWarning
 
 
 @pytest.fixture
@@ -53,12 +55,21 @@ def test_a_folder_that_cannot_be_written_is_no_reason_to_stop(tmp_path: Path, mo
     assert cache.load("a") is None
 
 
+def test_a_folder_that_others_may_write_keeps_nothing_and_says_so(own: Path) -> None:
+    cache.store("a", b"body")
+    own.chmod(0o777)
+    with pytest.warns(ResultsWarning, match="can be written by others.*chmod 700"):
+        assert cache.load("a") is None
+    cache.store("b", b"body")
+    assert [path.name for path in own.iterdir()] == ["a.o"]
+
+
 def test_folder(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("FDDBENCH_CACHE", raising=False)
     monkeypatch.setenv("XDG_CACHE_HOME", "/somewhere")
-    assert cache.folder() == Path("/somewhere/fddbench")
+    assert private.folder() == Path("/somewhere/fddbench")
     monkeypatch.delenv("XDG_CACHE_HOME")
-    assert cache.folder() == Path.home() / ".cache" / "fddbench"
+    assert private.folder() == Path.home() / ".cache" / "fddbench"
 
 
 def test_a_kernel_is_compiled_once(own: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -49,6 +49,7 @@ RIGHT = {"start": "held_samples", "read": "level", "seen": "level"}
 WRONG = {"start": "held_sample", "read": "levle", "seen": "levels"}
 
 
+@pytest.mark.slow
 def test_strict_mypy_refuses_three_misspelt_states_and_nothing_else(tmp_path):
     pytest.importorskip("mypy")
     for name, names in (("right", RIGHT), ("wrong", WRONG)):

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from fddbench import gallery
 from fddbench.campaign.load import read_campaign
-from fddbench.campaign.schema import campaign_schema
+from fddbench.campaign.schema.anywhere import campaign_schema
 from fddbench.errors import CampaignError
 from fddbench.voting.median import Median
 

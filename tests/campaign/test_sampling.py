@@ -34,6 +34,7 @@ def test_digits_make_the_number_again(radices, data):
 
 
 @given(st.lists(st.integers(0, 5000), min_size=1, max_size=30), st.integers(0, 2**64 - 1))
+@pytest.mark.slow
 def test_some_runs_are_some_of_all_runs(runs, key):
     dispersions = drawn(a_kg=UNIFORM, b_m=NORMAL, c_s=WINDOW)
     every = sample(dispersions, np.arange(5001), key=key)

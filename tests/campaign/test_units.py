@@ -9,7 +9,7 @@ from tests.campaign.conftest import Toy, pretend
 from fddbench.campaign.check import describe
 from fddbench.campaign.load import read_campaign
 from fddbench.campaign.plan import plan
-from fddbench.campaign.schema import campaign_schema
+from fddbench.campaign.schema.anywhere import campaign_schema
 from fddbench.errors import CampaignError
 from fddbench.interfaces import Site
 from fddbench.runner.faulty import batch_faults

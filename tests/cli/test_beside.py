@@ -294,6 +294,7 @@ def test_two_files_of_one_text_both_travel(net):
 
 
 @pytest.mark.parametrize("options", [["--backend", "numpy", "--jobs", "2"], ["--jobs", "1"]])
+@pytest.mark.slow
 def test_files_called_as_modules_of_python_are_no_trouble(tmp_path, options):
     """Started beside them too, where workers that put the working folder first would take them for Python's."""
     names = ("random", "numpy", "types", "signal")

@@ -88,6 +88,7 @@ def test_units_of_faults_disturbances_and_inputs_are_what_weights_take_back(engi
 
 
 @pytest.mark.parametrize("seed", range(5))
+@pytest.mark.slow
 def test_algorithm_1_ends_at_the_optimum_from_random_starts(engine, seed):
     """Remark 9: other starts end at the same γ."""
     random = np.random.default_rng(seed)

@@ -24,6 +24,7 @@ def first_order(n_f: int) -> StateSpace:
 
 @given(st.integers(0, 10**6), st.integers(2, 8), st.integers(1, 3), st.integers(0, 2), st.booleans())
 @settings(max_examples=8, deadline=None, derandomize=True)
+@pytest.mark.slow
 def test_random_plants_get_a_certified_filter(random_plant, seed, n_x, n_f, n_delta, constant):
     plant = random_plant(seed, n_x, n_f, n_delta)
     try:

@@ -49,6 +49,8 @@ def test_what_varies_is_part_of_the_fingerprint_and_of_the_schema():
     schema = Jam.model_json_schema()
     number, varied = schema["properties"]["onset_s"]["anyOf"]
     assert number == {"type": "number", "minimum": 0.0}
+    assert set(varied["properties"]) == {"uniform", "grid"}  # a time is bounded
+    number, varied, _ = schema["properties"]["amplitude_percent"]["anyOf"]
     assert set(varied["properties"]) == {"uniform", "log_uniform", "normal", "grid"}
 
 

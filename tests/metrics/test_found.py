@@ -52,6 +52,7 @@ def test_one_pass_finds_what_looking_back_finds(flight):
     assert _numbers([flight]) == [_looking_back(flight)]
 
 
+@pytest.mark.slow
 def test_twenty_thousand_flights_in_one_chunk():
     several = random_flights(20_000)
     assert _wrong(several)[:3] == []

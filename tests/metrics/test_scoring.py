@@ -70,6 +70,7 @@ def test_every_column_is_that_of_the_independent_scorer(backend):
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.slow
 def test_thousands_of_flights_side_by_side(backend):
     random = Random(5)
     numbers = iter(lambda: random.gauss(0.0, 1.0), object())

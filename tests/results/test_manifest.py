@@ -22,6 +22,7 @@ def test_a_last_line_without_its_end_is_flown_again(campaign, flown, out):
         assert path.read_bytes() == (flown / "manifest.jsonl").read_bytes()
 
 
+@pytest.mark.slow
 def test_every_flipped_bit_is_an_error_or_a_cut_off_append(out):
     path = out / "manifest.jsonl"
     lines = path.read_bytes().splitlines(keepends=True)[:2]

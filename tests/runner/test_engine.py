@@ -81,6 +81,7 @@ def test_lanes_and_processors_change_no_bit(chunk, interpreted, target, lanes):
     np.testing.assert_array_equal(_flown(chunk, backend="llvm", target=target, lanes=lanes), interpreted)
 
 
+@pytest.mark.slow
 def test_the_interpreter_is_what_plain_numpy_gives(chunk, interpreted):
     assembly, batch, fused, _ = chunk
     short = assembly.scoring.constants.unpack(rows := batch.score_constants.copy())
@@ -172,6 +173,7 @@ class RaisesOnNan(WithIf):
 
 
 @pytest.mark.parametrize("count", [1, 4])
+@pytest.mark.slow
 def test_a_departed_flight_has_one_status_whoever_flies_it(tmp_path, count):
     text = TEXT.replace("wind: light", "wind: severe").replace("duration_s: 8.0", "duration_s: 60.0")
     text = text.replace("gust_scale_ratio: {uniform: [0.0, 0.3]}", "gust_scale_ratio: {uniform: [9.0, 10.0]}")

@@ -29,6 +29,7 @@ def folder(campaign, tmp_path_factory):
 
 
 @pytest.mark.skipif(not llvm.available(), reason="needs llvmlite")
+@pytest.mark.slow
 def test_compiled_and_not_compiled_flights_have_the_same_bits(campaign):
     assembly = assemble(campaign)
     batch = assembly.batch(np.array([0, 13, 25, 60], dtype=np.int64))

@@ -56,6 +56,7 @@ def reference(tmp_path_factory):
         {"jobs": 1, "chunk": 64, "backend": "numpy"},
     ],
 )
+@pytest.mark.slow
 def test_jobs_chunks_and_backends_change_no_row_of_an_opaque_detector(reference, tmp_path, options):
     run_campaign(reference[0], tmp_path / "out", **options)
     assert bits(load(tmp_path / "out")) == bits(reference[1])

@@ -7,12 +7,13 @@ from typing import Any
 
 from fddbench import gallery, kinds
 from fddbench.api.manoeuvre_sketches import sketches
+from fddbench.campaign.in_words import options_in_words, parameter_in_words, said, site_in_words
 from fddbench.designs.design import read_design
 from fddbench.errors import FddbenchError, did_you_mean
-from fddbench.interfaces import Benchmark, Loop, Options, Parameter, Plant, Site
+from fddbench.interfaces import Benchmark, Loop, Options, Plant
 from fddbench.interfaces.benchmark import default_choices
 
-__all__ = ["SUBJECTS", "ask"]
+__all__ = ["SUBJECTS", "ask", "fitting_designs"]
 
 _WIDTH = 80
 SUBJECTS = ("benchmarks", "faults", "voters", "detectors", "schedulings", "recipes", "campaigns", "designs")
@@ -74,13 +75,7 @@ def _about(family: str, name: str) -> str:
         kind = kinds.load(family, name)
     except FddbenchError as error:
         return f"(broken) {error}"
-    return _said(kind)
-
-
-def _said(member: Any) -> str:
-    """What a member says of itself: its `about`, or the first line of its docstring."""
-    text = getattr(member, "about", "") or (getattr(member, "__doc__", None) or "").split("\n")[0]
-    return str(text)
+    return said(kind)
 
 
 def _aligned(about: Mapping[str, str]) -> Iterator[str]:
@@ -98,7 +93,7 @@ def _benchmark(bench: Benchmark) -> str:
     for key, choice in bench.choices.items():
         more = "; or a file of your own, mine.py:Mine" if choice.family else ""
         lines += [f"{key}: {choice.about} (the first is the default{more})"]
-        lines += _aligned({name: choice.says.get(name) or _option(member) for name, member in choice.options.items()})
+        lines += _aligned(options_in_words(choice))
     alike: dict[str, list[str]] = {}  # plants by what they have, for those that have the same stand together
     for name, member in (plants or {"": None}).items():
         own = {**chosen, "plant": member} if name else chosen
@@ -108,17 +103,6 @@ def _benchmark(bench: Benchmark) -> str:
     for text, names in alike.items():
         lines += ["", *([f"with plant: {', '.join(names)}"] if names[0] else []), text]
     return "\n".join(lines)
-
-
-def _option(member: Any) -> str:
-    """What an option says of itself; of a preset of numbers, the numbers."""
-    if getattr(member, "about", ""):
-        return str(member.about)
-    if isinstance(member, type):
-        return _said(member)
-    fields = getattr(member, "__dataclass_fields__", {})
-    given = {name: getattr(member, name) for name in fields if getattr(member, name) is not None}
-    return ", ".join(f"{name} {value}" for name, value in given.items()) if given else _said(member)
 
 
 def _more_sites(bench: Benchmark, chosen: Mapping[str, Any]) -> Iterator[str]:
@@ -135,15 +119,15 @@ def _more_sites(bench: Benchmark, chosen: Mapping[str, Any]) -> Iterator[str]:
 def _plant(bench: Benchmark, plant: Plant, loop: Loop, name: str, besides: list[str]) -> Iterator[str]:
     """Sites, manoeuvres, parameters and signals of a plant, and the designs that fit it."""
     yield f"fault sites (limits are {bench.limits_from})"
-    yield from _aligned({site.name: _site(site) for site in plant.sites})
+    yield from _aligned({site.name: site_in_words(site) for site in plant.sites})
     yield from besides
     yield "manoeuvres, with the length of a healthy flight"
-    drawn, fitting = sketches(bench, plant, name), list(_fitting(loop))
+    drawn, fitting = sketches(bench, plant, name), list(fitting_designs(loop))
     width = max(map(len, plant.manoeuvres)) + 2
     for manoeuvre, length_s in plant.manoeuvres.items():
         yield f"  {manoeuvre:<{width}}{length_s:>6g} s  {drawn.get(manoeuvre, '')}".rstrip()
     yield "parameters: default, range, meaning"
-    yield from _aligned({each.name: _parameter(each) for each in plant.parameters})
+    yield from _aligned({each.name: parameter_in_words(each) for each in plant.parameters})
     if plant.refused_parameters:
         yield "refused"
         yield from _aligned(plant.refused_parameters)
@@ -156,24 +140,11 @@ def _plant(bench: Benchmark, plant: Plant, loop: Loop, name: str, besides: list[
     yield from _wrapped(", ".join(fitting) or "none")
 
 
-def _site(site: Site) -> str:
-    unit = f" {site.unit_name}" if site.unit_name else ""
-    limits = ", ".join(f"{limit:g} s" for limit in site.limits_s)
-    parts = [f"{site.kind} on {site.signal}", f"100 % = {site.admissible:g}{unit}"]
-    parts += [f"stops {site.stops[0]:g} … {site.stops[1]:g}{unit}"] if max(map(abs, site.stops)) < float("inf") else []
-    parts += [f"to be found in {limits} (one, two, … faulty)" if len(site.limits_s) > 1 else f"to be found in {limits}"]
-    return ", ".join(parts if site.limits_s else [*parts[:-1], "a scenario states the limit"])
-
-
-def _parameter(one: Parameter) -> str:
-    return f"{one.default:g} ({one.low:g} … {one.high:g}), {one.about}"
-
-
 def _wrapped(text: str) -> list[str]:
     return wrap(text, _WIDTH, initial_indent="  ", subsequent_indent="  ", break_on_hyphens=False)
 
 
-def _fitting(loop: Loop) -> Iterator[str]:
+def fitting_designs(loop: Loop) -> Iterator[str]:
     """Names of the shipped designs that make a detector for the signals of a loop."""
     for path in sorted(gallery.folder("detectors").glob("*.yaml")):
         try:

@@ -6,6 +6,7 @@ from pathlib import Path
 from shutil import copyfile
 
 from fddbench import gallery
+from fddbench.api.schemas import HEADER, schema_text
 from fddbench.errors import FddbenchError
 
 __all__ = ["STARTERS", "copy_shipped", "start"]
@@ -31,7 +32,7 @@ _NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
 
 
 def start(folder: Path, what: str, name: str) -> list[Path]:
-    """Write the files of a new detector, benchmark, fault or campaign; the last one is its campaign.
+    """Write the files of a new detector, benchmark, fault or campaign, and the schema that an editor reads; last its campaign.
 
     Raises
     ------
@@ -55,18 +56,38 @@ def start(folder: Path, what: str, name: str) -> list[Path]:
         for path, text in texts.items():
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text, encoding="utf-8")
+        *others, campaign = texts
+        return [*others, *_schema_beside(campaign, texts[campaign]), campaign]
     except OSError as error:
         raise FddbenchError(f"cannot write into {folder}: {error.strerror}; name another folder") from error
-    return list(texts)
+
+
+def _schema_beside(campaign: Path, text: str) -> list[Path]:
+    """Schema that a new campaign names to an editor, written where there is none yet."""
+    line = next(line for line in text.splitlines() if line.startswith(HEADER))
+    path = campaign.parent / line.removeprefix(HEADER)
+    if path.exists():
+        return []
+    shipped = gallery.folder("campaigns") / "schema" / path.name
+    own = f"{path.stem}.py:{_class(path.stem)}"
+    content = shipped.read_text(encoding="utf-8") if shipped.is_file() else schema_text(own, campaign.parent)
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(content, encoding="utf-8")
+    return [path]
 
 
 def _text(source: str, name: str) -> str:
     text = (Path(__file__).parents[1] / "starters" / source).read_text(encoding="utf-8")
-    return text.replace("NAME", name).replace("CLASS", "".join(part.capitalize() for part in name.split("_")) or "Own")
+    return text.replace("NAME", name).replace("CLASS", _class(name))
+
+
+def _class(name: str) -> str:
+    """Name of the class in the file of a name."""
+    return "".join(part.capitalize() for part in name.split("_")) or "Own"
 
 
 def copy_shipped(folder: Path) -> list[Path]:
-    """Copy the shipped campaigns and designs; what is there already is left alone.
+    """Copy the shipped campaigns with the schemas that they name, and the designs; what is there already is left alone.
 
     Raises
     ------
@@ -74,14 +95,20 @@ def copy_shipped(folder: Path) -> list[Path]:
         The folder cannot be written.
     """
     written = []
-    for name in ("campaigns", "detectors"):
+    for name in ("campaigns", "campaigns/schema", "detectors"):
         target = folder / name
         try:
             target.mkdir(parents=True, exist_ok=True)
-            for path in sorted(gallery.folder(name).iterdir()):
+            for path in sorted(_shipped(name).iterdir()):
                 if path.is_file() and not (target / path.name).exists():
                     copyfile(path, target / path.name)
                     written.append(target / path.name)
         except OSError as error:
             raise FddbenchError(f"cannot write into {target}: {error.strerror}; name another folder") from error
     return written
+
+
+def _shipped(name: str) -> Path:
+    """Shipped folder, or one inside."""
+    first, *rest = name.split("/")
+    return gallery.folder(first).joinpath(*rest)

@@ -1,31 +1,19 @@
-"""What was made of a kernel, on disk: it is merged and compiled once per machine and loaded in milliseconds afterwards."""
+"""What was made of a kernel, on disk: it is merged and compiled once per machine and loaded in milliseconds afterwards.
 
-import os
+The folder is the user's alone (`fddbench.private`): in one that others may write nothing is kept and nothing is read.
+"""
+
 import tempfile
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
 
-__all__ = ["folder", "key", "load", "source", "store"]
+from fddbench import private
+from fddbench.errors import ResultsWarning, warn
+
+__all__ = ["key", "load", "source", "store"]
 
 _DIGEST = 32
-
-
-def folder() -> Path:
-    """Where objects are kept: ``$FDDBENCH_CACHE``, else ``fddbench`` in the user's cache directory.
-
-    Raises
-    ------
-    OSError
-        The user has no home, as in many containers.
-    """
-    chosen = os.environ.get("FDDBENCH_CACHE")
-    if chosen:
-        return Path(chosen)
-    try:
-        return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "fddbench"
-    except RuntimeError as error:
-        raise OSError(f"no cache without a home: {error}") from error
 
 
 def key(*parts: str) -> str:
@@ -41,20 +29,34 @@ def source() -> str:
 
 
 def load(name: str) -> bytes | None:
-    """Object stored under a name; None when there is none, when it is not what was stored or where nothing can be kept."""
+    """Object stored under a name; None when there is none, when it is not what was stored or could be another user's."""
     try:
-        content = (folder() / f"{name}.o").read_bytes()
+        where = private.folder()
+        _warn_once(where, private.trouble(where))
+        content = private.read(where / f"{name}.o")
     except OSError:
+        return None
+    if content is None:
         return None
     digest, body = content[:_DIGEST], content[_DIGEST:]
     return body if sha256(body).digest() == digest else None
 
 
+@cache
+def _warn_once(where: Path, trouble: str) -> None:
+    if trouble:
+        warn(
+            f"machine code of flights is not kept: {where} {trouble}, and what lies there is run. Make it yours alone "
+            f"(chmod 700 {where}) or name another folder in FDDBENCH_CACHE",
+            ResultsWarning,
+        )
+
+
 def store(name: str, body: bytes) -> None:
     """Keep an object; a full or read-only disk is no reason to stop."""
     try:
-        folder().mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile(dir=folder(), delete=False) as file:
+        where = private.made(private.folder())
+        with tempfile.NamedTemporaryFile(dir=where, delete=False) as file:
             aside = Path(file.name)
             file.write(sha256(body).digest() + body)
     except OSError:

@@ -7,7 +7,11 @@ from pathlib import Path
 from textwrap import fill
 
 from fddbench import __version__
-from fddbench.cli import aircraft, commands, completing, counting, designing, looking
+from fddbench.cli import aircraft, commands, completing, counting, designing, exporting, looking
+from fddbench.cli.checked_numbers import flights as _flights
+from fddbench.cli.checked_numbers import jobs as _jobs
+from fddbench.cli.checked_numbers import probability as _probability
+from fddbench.cli.checked_numbers import share as _share
 
 __all__ = ["parser"]
 
@@ -57,6 +61,7 @@ def parser() -> argparse.ArgumentParser:
         help="campaign whose benchmark and sample time count (default: the first shipped one that feeds it)",
     )  # fmt: skip
 
+    exporting.arguments(_add(subs, "export", exporting.export))
     _bound(_add(subs, "bound", commands.bound))
 
     check = _add(subs, "check", commands.check)
@@ -93,11 +98,21 @@ def _reading(subs) -> None:  # type: ignore[no-untyped-def]
     report.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
     report.add_argument("--output", type=Path, metavar="FILE", help="page to write (default: DIR/report.html)")
 
+    _trusting(report)
+
     scores = _add(subs, "scores", commands.scores)
     scores.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+    _trusting(scores)
 
     finding = _add(subs, "finding", commands.finding)
     finding.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+    _trusting(finding)
+
+
+def _trusting(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--trust", action="store_true", help="run plug-ins in DIR, now and later, though never flown from here"
+    )
 
 
 def _counting(subs) -> None:  # type: ignore[no-untyped-def]
@@ -146,6 +161,7 @@ def _looking(subs) -> None:  # type: ignore[no-untyped-def]
     )
     replay.add_argument("--plot", type=Path, metavar="FILE", help="picture to write: .html, .png, .svg or .pdf")
     replay.add_argument("--to", type=Path, metavar="FILE", help="table to write: .csv, .parquet, .mat or .h5")
+    _trusting(replay)
 
     worst = _add(subs, "worst", looking.worst)
     worst.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
@@ -163,6 +179,7 @@ def _verify(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--seed", type=int, metavar="N", help="of the draw of these flights (default: another every time)"
     )
+    _trusting(command)
 
 
 def _asking(subs) -> None:  # type: ignore[no-untyped-def]
@@ -179,7 +196,9 @@ def _asking(subs) -> None:  # type: ignore[no-untyped-def]
     one = init.add_mutually_exclusive_group()
     for what in ("detector", "benchmark", "fault", "campaign"):
         one.add_argument(f"--{what}", metavar="NAME", help=f"a small {what} of your own, and a campaign that flies it")
-    _add(subs, "schema", commands.schema)
+    schema = _add(subs, "schema", commands.schema)
+    schema.add_argument("subject", nargs="?", default="", metavar="BENCHMARK", help="name of a benchmark, or designs")
+    schema.add_argument("--output", type=Path, metavar="FILE", help="file to write (default: print it)")
     completion = _add(subs, "completion", completing.completion)
     completion.add_argument("shell", choices=completing.SHELLS, help="bash, zsh or fish")
 
@@ -250,39 +269,3 @@ def _modes(command: argparse.ArgumentParser) -> None:
         "aircraft", type=Path, nargs="?", metavar="FILE", help="file of an aircraft (default: the shipped twin-jet)"
     )
     command.add_argument("--feasible", action="store_true", help="only the points that it can fly")
-
-
-def _share(text: str) -> float:
-    """Share of flights."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = -1.0
-    if not 0.0 <= value < 1.0:
-        raise argparse.ArgumentTypeError(f"need a share from 0 to below 1, e.g. 0.01 for 1 %, got {text!r}")
-    return value
-
-
-def _probability(text: str) -> float:
-    """Probability of a false alarm."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = -1.0
-    if not 0.0 < value < 1.0:
-        raise argparse.ArgumentTypeError(f"need a probability above 0 and below 1, e.g. 1e-6, got {text!r}")
-    return value
-
-
-def _flights(text: str) -> int:
-    """Number of flights."""
-    if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= 10_000:
-        raise argparse.ArgumentTypeError(f"need a whole number from 1 to 10000, got {text!r}")
-    return int(text)
-
-
-def _jobs(text: str) -> int:
-    """Number of workers."""
-    if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= 256:
-        raise argparse.ArgumentTypeError(f"need a whole number from 1 to 256, got {text!r}")
-    return int(text)

@@ -4,6 +4,7 @@ import os
 import sys
 import warnings
 from io import TextIOWrapper
+from pathlib import Path
 from typing import Any
 
 from fddbench.cli.arguments import parser
@@ -25,6 +26,8 @@ def main(argv: list[str] | None = None) -> int:
     try:
         with warnings.catch_warnings():
             _say_in_words()
+            if getattr(args, "trust", False):
+                _trust(args.source if "source" in args else args.folder)
             code: int = args.command(args)
         sys.stdout.flush()
         return code
@@ -42,6 +45,12 @@ def main(argv: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("fddbench: interrupted", file=sys.stderr)
         return 130
+
+
+def _trust(folder: Path) -> None:
+    from fddbench.api.trusting import trust
+
+    trust(folder)
 
 
 def _say_in_words() -> None:

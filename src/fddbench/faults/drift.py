@@ -1,10 +1,12 @@
 """Drift: the sensor walks off slowly and stays where it has come to."""
 
+from collections.abc import Iterator
 from typing import ClassVar, Literal
 
 import numpy as np
 
 from fddbench.blocks.layout import Rows, record
+from fddbench.faults.key_rules import KeyRule, exactly_one
 from fddbench.faults.specification import FaultSpecification, Finite, NonNegative
 from fddbench.interfaces import Floats, Site
 
@@ -43,6 +45,13 @@ class Drift(FaultSpecification):
     rate: Finite | None = None
     amplitude_percent: NonNegative | None = None
     amplitude: NonNegative | None = None
+
+    @classmethod
+    def key_rules(cls) -> Iterator[KeyRule]:
+        """Exactly one rate, and one final size."""
+        yield from super().key_rules()
+        yield exactly_one("rate_percent_s", cls.key("rate"))
+        yield exactly_one("amplitude_percent", cls.key("amplitude"))
 
     def numbers(self, site: Site, uniform: Floats) -> Ramp:
         """Ramp of the given slope up to the given size."""

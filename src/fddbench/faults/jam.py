@@ -1,8 +1,10 @@
 """Jam: the sensor stands off by a constant, or stands still."""
 
+from collections.abc import Iterator
 from typing import ClassVar, Literal
 
 from fddbench.faults.bias import Offset
+from fddbench.faults.key_rules import KeyRule, exactly_one, where
 from fddbench.faults.specification import WithAmplitude
 from fddbench.interfaces import Floats, Site
 
@@ -24,6 +26,17 @@ class Jam(WithAmplitude):
     profile = Offset
 
     kind: Literal["jam"]
+
+    @classmethod
+    def key_rules(cls) -> Iterator[KeyRule]:
+        """An amplitude that is added, or one thing at which the sensor stands."""
+        yield from super(WithAmplitude, cls).key_rules()
+        sizes = ("amplitude_percent", cls.key("amplitude"))
+        held = [{"required": [key]} for key in (cls.key("hold_value"), "hold_value_percent")]
+        stands = {"anyOf": [{"properties": {"freeze": {"const": True}}, "required": ["freeze"]}, *held]}
+        yield where(
+            "mode", "replace", {**stands, "properties": {key: {"type": "null"} for key in sizes}}, exactly_one(*sizes)
+        )
 
     def numbers(self, site: Site, uniform: Floats) -> Offset:
         """Offset, or none beside the held value."""

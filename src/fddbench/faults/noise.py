@@ -1,11 +1,13 @@
 """Noise: the sensor turns noisy."""
 
+from collections.abc import Iterator
 from typing import Any, ClassVar, Literal
 
 import numpy as np
 
 from fddbench.blocks.block import NOTHING
 from fddbench.blocks.layout import Layout, Nothing, Rows, record
+from fddbench.faults.key_rules import KeyRule, exactly_one
 from fddbench.faults.profile import constants_of
 from fddbench.faults.specification import FaultSpecification, NonNegative
 from fddbench.interfaces import Floats, Instant, Site
@@ -54,6 +56,12 @@ class Noise(FaultSpecification):
     kind: Literal["noise"]
     variance_percent: NonNegative | None = None
     variance: NonNegative | None = None
+
+    @classmethod
+    def key_rules(cls) -> Iterator[KeyRule]:
+        """Exactly one variance."""
+        yield from super().key_rules()
+        yield exactly_one("variance_percent", cls.key("variance"))
 
     def numbers(self, site: Site, uniform: Floats) -> Sigma:
         """Noise of the given variance."""

@@ -8,6 +8,7 @@ from pydantic import model_validator
 
 from fddbench.blocks.functions import sin
 from fddbench.blocks.layout import Rows, record
+from fddbench.faults.key_rules import KeyRule, at_most_one, exactly_one, positive
 from fddbench.faults.specification import Finite, WithAmplitude, one_of
 from fddbench.faults.varied import bounds, in_words
 from fddbench.interfaces import Floats, Site
@@ -51,6 +52,14 @@ class Oscillatory(WithAmplitude):
     frequency_rad_s: Finite | None = None
     phase_rad: Finite | None = None
     phase: Literal["uniform"] | None = None
+
+    @classmethod
+    def key_rules(cls) -> Iterator[KeyRule]:
+        """Exactly one frequency, above zero, and at most one phase."""
+        yield from super().key_rules()
+        yield exactly_one("frequency_hz", "frequency_rad_s")
+        yield at_most_one("phase_rad", "phase")
+        yield positive("frequency_hz", "frequency_rad_s")
 
     @model_validator(mode="after")
     def _one_phase(self) -> Self:

@@ -1,11 +1,13 @@
 """Quantisation: the sensor shows whole steps only."""
 
+from collections.abc import Iterator
 from typing import ClassVar, Literal
 
 import numpy as np
 
 from fddbench.blocks.layout import Rows, record
 from fddbench.faults.distortion import Distorting
+from fddbench.faults.key_rules import KeyRule, exactly_one
 from fddbench.faults.specification import NonNegative
 from fddbench.interfaces import Floats, Site
 
@@ -50,6 +52,12 @@ class Quantisation(Distorting):
     kind: Literal["quantisation"]
     quantum_percent: NonNegative | None = None
     quantum: NonNegative | None = None
+
+    @classmethod
+    def key_rules(cls) -> Iterator[KeyRule]:
+        """Exactly one quantum."""
+        yield from super().key_rules()
+        yield exactly_one("quantum_percent", cls.key("quantum"))
 
     def numbers(self, site: Site, uniform: Floats) -> Steps:
         """Steps of the given height."""

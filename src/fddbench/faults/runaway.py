@@ -1,8 +1,10 @@
 """Runaway: the sensor drives away at a constant rate until it reaches its stop."""
 
+from collections.abc import Iterator
 from typing import ClassVar, Literal
 
 from fddbench.blocks.layout import Rows, record
+from fddbench.faults.key_rules import KeyRule, exactly_one
 from fddbench.faults.specification import FaultSpecification, Finite
 from fddbench.interfaces import Floats, Site
 
@@ -35,6 +37,12 @@ class Runaway(FaultSpecification):
     kind: Literal["runaway"]
     rate_percent_s: Finite | None = None
     rate: Finite | None = None
+
+    @classmethod
+    def key_rules(cls) -> Iterator[KeyRule]:
+        """Exactly one rate."""
+        yield from super().key_rules()
+        yield exactly_one("rate_percent_s", cls.key("rate"))
 
     def numbers(self, site: Site, uniform: Floats) -> Drive:
         """Ramp of the given slope."""

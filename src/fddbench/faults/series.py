@@ -6,7 +6,7 @@ from hashlib import sha256
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
-from pydantic import AfterValidator, PrivateAttr, model_validator
+from pydantic import AfterValidator, Field, PrivateAttr, model_validator
 
 from fddbench.blocks.block import NOTHING
 from fddbench.blocks.layout import Layout, Nothing, Rows, record
@@ -14,6 +14,7 @@ from fddbench.blocks.primitives import gather
 from fddbench.blocks.table import Table
 from fddbench.errors import FddbenchError
 from fddbench.faults.cycle import into_cycle
+from fddbench.faults.key_rules import KeyRule, at_most_one
 from fddbench.faults.profile import constants_of
 from fddbench.faults.recorded import MOST_SAMPLES, Recorded, read_recorded
 from fddbench.faults.specification import FaultSpecification, Finite, Time
@@ -37,8 +38,11 @@ class Playing:
     start_s: Rows
 
 
+_FILE = r"[A-Za-z0-9_][A-Za-z0-9._-]*\.(csv|parquet)"
+
+
 def _beside(name: str) -> str:
-    if not re.fullmatch(r"[A-Za-z0-9_][A-Za-z0-9._-]*\.(csv|parquet)", name):
+    if not re.fullmatch(_FILE, name):
         raise ValueError(
             f"need the name of a .csv or .parquet file beside the campaign, without a folder, got {name!r}; put it there"
         )
@@ -114,7 +118,7 @@ class Series(FaultSpecification):
     files: ClassVar[tuple[str, ...]] = ("file",)
 
     kind: Literal["series"]
-    file: Annotated[str, AfterValidator(_beside)]
+    file: Annotated[str, AfterValidator(_beside), Field(json_schema_extra={"pattern": f"^{_FILE}$"})]
     between: Literal["linear", "previous"] = "linear"
     after: Literal["hold", "repeat", "zero"] = "hold"
     gain: Finite = 1.0
@@ -122,6 +126,12 @@ class Series(FaultSpecification):
     start: Literal["uniform"] | None = None
 
     _recorded: Recorded | None = PrivateAttr(default=None)
+
+    @classmethod
+    def key_rules(cls) -> Iterator[KeyRule]:
+        """At most one start."""
+        yield from super().key_rules()
+        yield at_most_one("start_s", "start")
 
     @model_validator(mode="after")
     def _one_start(self) -> Self:

@@ -13,6 +13,7 @@ import numpy as np
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 
 from fddbench.errors import FddbenchError
+from fddbench.faults.key_rules import KeyRule, at_most_one, exactly_one, positive, where
 from fddbench.faults.profile import Profile, ProfileBlock
 from fddbench.faults.timing import misfits
 from fddbench.faults.varied import Number, Varied
@@ -124,6 +125,19 @@ class FaultSpecification(BaseModel):
         """
         return _in_unit(cls, name)  # type: ignore[return-value]
 
+    @classmethod
+    def key_rules(cls) -> Iterator[KeyRule]:
+        """What JSON Schema can say besides of its keys, for editors; a kind adds what its validators refuse."""
+        held = at_most_one(cls.key("hold_value"), "hold_value_percent")
+        none = {key: {"type": "null"} for key in (cls.key("hold_value"), "hold_value_percent")}
+        frozen = where("freeze", True, {"properties": none})
+        if cls.model_fields["mode"].default == "add":
+            yield where(
+                "mode", "replace", {"allOf": [held, frozen]}, {"properties": {"freeze": {"const": False}, **none}}
+            )
+        if cls.lengths:
+            yield positive(*cls.lengths)
+
     @property
     def times(self) -> tuple[str, ...]:
         """Fields that are times on the clock."""
@@ -215,6 +229,12 @@ class WithAmplitude(FaultSpecification):
 
     amplitude_percent: Finite | None = None
     amplitude: Finite | None = None
+
+    @classmethod
+    def key_rules(cls) -> Iterator[KeyRule]:
+        """Exactly one amplitude."""
+        yield from super().key_rules()
+        yield exactly_one("amplitude_percent", cls.key("amplitude"))
 
 
 @cache

@@ -1,11 +1,13 @@
 """Stuck bit: one bit of the digital word that a sensor sends stands at 0 or at 1."""
 
+from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 
 from fddbench.blocks.layout import Rows, record
 from fddbench.faults.distortion import Distorting
+from fddbench.faults.key_rules import KeyRule, exactly_one
 from fddbench.faults.quantisation import count_of
 from fddbench.faults.specification import Positive
 from fddbench.faults.varied import Number
@@ -57,6 +59,12 @@ class StuckBit(Distorting):
     value: Annotated[Any, Number(ge=0.0, le=1.0, whole=True)]
     quantum_percent: Positive | None = None
     quantum: Positive | None = None
+
+    @classmethod
+    def key_rules(cls) -> Iterator[KeyRule]:
+        """Exactly one quantum."""
+        yield from super().key_rules()
+        yield exactly_one("quantum_percent", cls.key("quantum"))
 
     def numbers(self, site: Site, uniform: Floats) -> Bit:
         """Weight of the bit, exactly a power of two."""

@@ -127,8 +127,20 @@ class Number:
         )
 
     def __get_pydantic_json_schema__(self, core: Any, handler: Any) -> dict[str, Any]:
-        """A number, or one of the ways to vary it."""
-        return {"anyOf": [handler(core["schema"]), handler(Varied.__pydantic_core_schema__)]}
+        """A number, or one of the ways to vary it that stay within its bounds."""
+        del core, handler
+        number: dict[str, Any] = {"type": "integer" if self.whole else "number"}
+        bounds = {"minimum": self.ge, "exclusiveMinimum": self.gt, "maximum": self.le}
+        number |= {word: bound for word, bound in bounds.items() if bound is not None}
+        ends = {"type": "array", "items": number, "minItems": 2, "maxItems": 2}
+        ways: dict[str, Any] = {"grid": {"type": "array", "items": number, "minItems": 1, "uniqueItems": True}}
+        if not self.whole:
+            ways["uniform"] = ends
+        if not self.whole and not self.time:
+            ways["log_uniform"] = {**ends, "items": {**number, "exclusiveMinimum": max(self.gt or 0.0, 0.0)}}
+            if len(number) == 1:
+                ways["normal"] = Bell.model_json_schema()
+        return {"anyOf": [number, _one_of(ways)]}
 
     def _read(self, value: Any, number: Callable[[Any], float]) -> "float | Varied":
         if isinstance(value, dict):
@@ -158,6 +170,17 @@ class Number:
         if self.whole and not value.is_integer():
             raise ValueError(f"need a whole number, got {value:g}")
         return value
+
+
+def _one_of(ways: dict[str, Any]) -> dict[str, Any]:
+    """Schema of a mapping with exactly one of these keys."""
+    return {
+        "type": "object",
+        "properties": ways,
+        "additionalProperties": False,
+        "minProperties": 1,
+        "maxProperties": 1,
+    }
 
 
 def _plain(value: Any) -> Any:

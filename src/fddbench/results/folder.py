@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from fddbench.errors import ResultsError
-from fddbench.results import manifest, ours
+from fddbench.results import manifest, ours, trust
 from fddbench.results.fingerprint import Fingerprint, differences
 from fddbench.results.ours import RESERVED
 from fddbench.results.schema import SCHEMA_VERSION
@@ -41,6 +41,7 @@ def claim(folder: Path, *, files: Mapping[str, bytes], provenance: Mapping[str, 
         The folder holds results of another campaign or program (the difference is told) or files that are not fddbench's.
     """
     refuse_foreign(folder, fresh=fresh)
+    trust.remember(trust.code_digest(provenance["files"]))  # who flies it here has chosen its code
     if (folder / _PROVENANCE).is_file() and not fresh:
         there = _read(folder)
         _require_same(folder, there, provenance, files)

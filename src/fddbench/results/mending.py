@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from fddbench.errors import ResultsError
-from fddbench.results import manifest
+from fddbench.results import manifest, ours
 from fddbench.results.manifest import Shard
 from fddbench.results.shards import file_sha256
 
@@ -30,6 +30,7 @@ def mend(folder: Path, *, fingerprint: str, n_cases: int) -> tuple[tuple[Shard, 
     ResultsError
         There is no list, or it has sound shards of another campaign or program.
     """
+    ours.sweep(folder)
     found = manifest.survey(folder)
     if any(shard.fingerprint != fingerprint for shard in found.shards):
         raise ResultsError(

@@ -9,7 +9,7 @@ from pathlib import Path, PurePosixPath
 from fddbench.errors import ResultsError
 from fddbench.results.manifest import survey
 
-__all__ = ["RESERVED", "clear", "refuse_foreign"]
+__all__ = ["RESERVED", "clear", "refuse_foreign", "sweep"]
 
 _FIXED = ("campaign.yaml", "manifest.jsonl", "report.html", "summary.parquet", "provenance.json", ".lock", ".pid")
 RESERVED = frozenset({*_FIXED, "rows", "events"})
@@ -17,6 +17,7 @@ RESERVED = frozenset({*_FIXED, "rows", "events"})
 _SHARD = re.compile(r"(rows|events)/[0-9-]+\.parquet")
 _LEFT = re.compile(r"(.*/)?(\.[^/]+\.[0-9]+\.tmp|__pycache__/[^/]+\.pyc)")
 """What a crash in the middle of a write leaves behind, and what Python leaves beside the plug-ins."""
+_ASIDE = re.compile(r"\.[^/]+\.[0-9]+\.tmp")
 
 
 def refuse_foreign(folder: Path, carried: Collection[str] | None, *, fresh: bool) -> None:
@@ -97,6 +98,15 @@ def clear(folder: Path, carried: Collection[str]) -> None:
         else:
             path.unlink(missing_ok=True)
     (folder / "provenance.json").unlink(missing_ok=True)
+
+
+def sweep(folder: Path) -> None:
+    """Remove the files that a killed run was writing aside; who holds the lock of a folder is its only writer."""
+    for below in (folder, folder / "rows", folder / "events", folder / "detectors"):
+        if below.is_dir() and not below.is_symlink():
+            for path in below.iterdir():
+                if _ASIDE.fullmatch(path.name):
+                    path.unlink(missing_ok=True)
 
 
 def _walk(folder: Path) -> Iterator[tuple[str, bool]]:

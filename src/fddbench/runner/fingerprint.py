@@ -1,6 +1,7 @@
 """The fingerprint of a campaign and of the program that flies it here, and the campaign that is frozen in a folder."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from contextlib import nullcontext
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -10,13 +11,15 @@ from fddbench.blocks import llvm
 from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.plan import Plan
-from fddbench.errors import FddbenchError, OtherProgramWarning, ResultsError, warn
+from fddbench.errors import FddbenchError, OtherProgramWarning, ResultsError, UntrustedError, warn
+from fddbench.plugin_files import none_run
+from fddbench.results import trust
 from fddbench.results.fingerprint import Fingerprint, differences
 from fddbench.results.folder import changed_files, provenance_of
 from fddbench.results.provenance import collect, version_of
 from fddbench.results.schema import SCHEMA_VERSION
 
-__all__ = ["fingerprint_of", "frozen", "frozen_to_fly", "other_program", "provenance_for"]
+__all__ = ["fingerprint_of", "frozen", "frozen_to_fly", "other_program", "provenance_for", "trusted"]
 
 _REMEDY = "Run the campaign again on this folder: it puts the files back."
 
@@ -73,6 +76,8 @@ def frozen(folder: Path) -> Campaign:
     ------
     ResultsError
         The frozen campaign, a design or a plug-in was changed or is gone, or cannot be read by this program.
+    UntrustedError
+        It stands on code that lies in the folder and was never flown from here.
     """
     campaign = _read(folder)
     other = other_program(folder, campaign)
@@ -97,7 +102,7 @@ def frozen_to_fly(folder: Path, fingerprint: str) -> Campaign:
     ResultsError
         The worker is another program than the one that gives out the work, or the folder was changed meanwhile.
     """
-    campaign = _read(folder)
+    campaign = _read(folder, flown=True)
     if fingerprint_of(campaign).sha256 != fingerprint:
         other = other_program(folder, campaign) or "the folder was claimed anew meanwhile"
         raise ResultsError(
@@ -106,14 +111,38 @@ def frozen_to_fly(folder: Path, fingerprint: str) -> Campaign:
     return campaign
 
 
-def _read(folder: Path) -> Campaign:
-    """Campaign of the frozen files, once they are those that were written; only then is a plug-in among them run."""
+def trusted(folder: Path) -> bool:
+    """Whether the plug-ins of a folder of results, if it has any, may run here: they were flown from here."""
+    files = provenance_of(folder)["files"]
+    code = trust.code_digest(files)
+    return not trust.unlisted(folder, files) and (not code or trust.is_known(code))
+
+
+def _read(folder: Path, *, flown: bool = False) -> Campaign:
+    """Campaign of the frozen files, once they are those that were written; only then is a plug-in among them run.
+
+    A worker of a run (`flown`) runs what its parent was told to run.
+    """
     provenance, changed = provenance_of(folder), changed_files(folder)
     if changed:
         raise ResultsError(f"{folder / changed[0]} is not the file of these results, or is gone. {_REMEDY}")
+    code = provenance["files"]
+    runs = flown or (bool(trust.code_digest(code)) and trusted(folder))
+    asked: list[str] = []
     try:
-        return read_campaign(folder / "campaign.yaml")
+        with nullcontext(asked) if runs else none_run() as asked:
+            return read_campaign(folder / "campaign.yaml")
     except FddbenchError as error:
+        if asked:
+            raise UntrustedError(_untrusted(folder, asked)) from None
         written, here = provenance["fddbench"], version_of("fddbench")
         cure = _REMEDY if written == here else f"Read it with fddbench {written}, this is {here}."
         raise ResultsError(f"the campaign frozen in {folder} cannot be read any more:\n{error}\n{cure}") from error
+
+
+def _untrusted(folder: Path, asked: Sequence[str]) -> str:
+    names = list(dict.fromkeys(asked))
+    return (
+        f"{folder} brings code that was never flown from here and is not run: {', '.join(names)}. Read it; if it may run "
+        "with your rights, repeat the command with --trust (in Python: fddbench.trust(folder))"
+    )

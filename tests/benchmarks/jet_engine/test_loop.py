@@ -45,6 +45,7 @@ def test_inputs_are_scaled(bench):
 
 
 @pytest.mark.parametrize("sample_s", [0.1, 0.05, 0.02, 0.01])
+@pytest.mark.slow
 def test_disturbances_are_held_a_tenth_of_a_second_with_sigma_two(bench, sample_s):
     loop = bench.loop(sample_s=sample_s)
     d = np.stack([bench.fly(loop, 40, 30.0, disturbance_scale_ratio=1.0)[f"d_true_{i}"] for i in (1, 2, 3)])

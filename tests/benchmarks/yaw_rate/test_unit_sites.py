@@ -6,7 +6,7 @@ import pytest
 import yaml
 
 from fddbench.campaign.load import read_campaign
-from fddbench.campaign.schema import campaign_schema
+from fddbench.campaign.schema.anywhere import campaign_schema
 from fddbench.errors import CampaignError
 
 LOST = {"kind": "jam", "sites": ["phi1", "p1", "r1"], "onset_s": 6.0, "amplitude_percent": 2.0}

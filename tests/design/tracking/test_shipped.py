@@ -35,6 +35,7 @@ def found(name):
 
 
 @pytest.mark.parametrize("name", NAMES)
+@pytest.mark.slow
 def test_the_recipe_gives_the_law_of_the_file(name, tmp_path, monkeypatch):
     if name == "hinf":
         pytest.importorskip("slycot", reason="H∞ synthesis needs the extra 'synthesis', whose slycot is GPL")
@@ -93,6 +94,7 @@ def test_margins_are_those_of_the_file_with_the_elevator_and_with_the_stabiliser
             assert margin > least
 
 
+@pytest.mark.slow
 def test_the_scheduled_law_is_stable_all_over_the_envelope():
     points = envelope_points([150.0, 200.0, 280.0], [1000.0, 6000.0, 11000.0])
     assert len(points) == 8

@@ -132,6 +132,12 @@ class ScenarioEntry(Strict):
 
     Attributes
     ----------
+    name : str
+        Its name in the table of results.
+    manoeuvre : str
+        What is flown, by the names of the benchmark.
+    faults : list of mappings
+        What breaks, each with its kind; none: a healthy flight.
     runs : int
         Instead of ``dispersions.monte_carlo.runs``.
     duration_s, detection_time_limit_s : float
@@ -170,6 +176,12 @@ class CampaignFile(Strict):
 
     Attributes
     ----------
+    name : str
+        Its name; the folder of results is called so.
+    about : str
+        The question it answers; decides no row.
+    benchmark : str
+        What is flown on, by its name or as a file beside the campaign, ``mine.py:Mine``.
     purpose : {"evaluation", "tuning"}
         Tuning and evaluation never share a flight.
     seed : int
@@ -180,6 +192,10 @@ class CampaignFile(Strict):
         Integration steps in a sample.
     duration_s : float
         Length of every flight [s]; a scenario may say otherwise.
+    scenarios : list of ScenarioEntry
+        Manoeuvres, each with the faults injected in it.
+    dispersions : Dispersions
+        What differs from flight to flight.
     detectors : tuple of str or SweptDesign
         Names of designs, files in ``detectors/``; or a design and gains to sweep, ``{design: NAME, sweep: {KEY: [1, 2]}}``.
     reconfigure : str

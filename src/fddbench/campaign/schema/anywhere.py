@@ -1,11 +1,13 @@
-"""JSON schema of a campaign file, so that an editor completes its keys."""
+"""JSON schema of a campaign on any benchmark, so that an editor completes its keys."""
 
 from collections.abc import Iterator
 from typing import Any
 
 from fddbench import kinds
-from fddbench.campaign.rules.model import CampaignFile, campaign_file
-from fddbench.errors import FddbenchError
+from fddbench.campaign.rules.model import CampaignFile
+from fddbench.campaign.schema.fault_entries import fault_kind, registered_faults
+from fddbench.campaign.schema.on_benchmark import written_schema
+from fddbench.campaign.schema.parts import DIALECT, FILE_KIND
 from fddbench.interfaces import Benchmark, Plant
 from fddbench.interfaces.benchmark import default_choices
 from fddbench.units import UNITS
@@ -16,7 +18,8 @@ __all__ = ["campaign_schema"]
 def campaign_schema() -> dict[str, Any]:
     """JSON schema with the choices of every registered benchmark and the keys of every registered fault.
 
-    Sizes are in the units of the benchmarks' sites. A package that cannot be imported is left out.
+    Sizes are in the units of the benchmarks' sites. A package that cannot be imported is left out. That of one benchmark
+    knows its names too, see `fddbench.campaign.schema.on_benchmark`.
     """
     keys: dict[str, None] = {}
     units: set[str] = set()
@@ -28,12 +31,15 @@ def campaign_schema() -> dict[str, Any]:
             continue
         keys |= dict.fromkeys(key for key in benchmark.choices if key not in CampaignFile.model_fields)
         units |= found & UNITS.keys()
-    schema = campaign_file(tuple(keys)).model_json_schema()
-    faults = [kind.in_unit(unit).model_json_schema() for unit in sorted(units) for kind in _faults()]
-    for fault in faults:
-        schema["$defs"] |= fault.pop("$defs", {})
+    schema = written_schema(tuple(keys))
+    faults = [
+        fault_kind(name, kind, unit, schema["$defs"])
+        for unit in sorted(units)
+        for name, kind in registered_faults().items()
+    ]
+    faults.append({"properties": {"kind": {"type": "string", "pattern": FILE_KIND}}, "required": ["kind"]})
     schema["$defs"]["ScenarioEntry"]["properties"]["faults"]["items"] = {"anyOf": faults}
-    return schema
+    return {"$schema": DIALECT, "$id": "urn:fddbench:campaign", "title": "fddbench campaign", **schema}
 
 
 def _plants(benchmark: Benchmark) -> Iterator[Plant]:
@@ -43,14 +49,3 @@ def _plants(benchmark: Benchmark) -> Iterator[Plant]:
     for key, choice in benchmark.choices.items():
         for name in list(choice.options)[1:]:
             yield benchmark.plant({**usual, key: choice.options[name]})
-
-
-def _faults() -> list[Any]:
-    """Registered kinds of faults that can be imported."""
-    found = []
-    for name in kinds.known("fault"):
-        try:
-            found.append(kinds.load("fault", name))
-        except FddbenchError:
-            continue
-    return found

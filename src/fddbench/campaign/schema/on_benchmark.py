@@ -1,0 +1,101 @@
+"""JSON schema of the campaigns on one benchmark: every name, range and unit that it knows."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from fddbench import kinds
+from fddbench.campaign.in_words import options_in_words
+from fddbench.campaign.rules.consistency import MOST_CASES
+from fddbench.campaign.rules.keys import NAME_PATTERN
+from fddbench.campaign.rules.model import (
+    CampaignFile,
+    Dispersions,
+    Distribution,
+    MonteCarlo,
+    Normal,
+    ReportEntry,
+    ScenarioEntry,
+    TruncatedNormal,
+    campaign_file,
+)
+from fddbench.campaign.rules.references import default_of
+from fddbench.campaign.rules.swept import Sweep, SweptDesign
+from fddbench.campaign.schema.described import described, titled
+from fddbench.campaign.schema.names import name_rules
+from fddbench.campaign.schema.parts import DIALECT, FILE_KIND, Schema, one_of_names, when
+from fddbench.interfaces import Benchmark, Choice
+
+__all__ = ["benchmark_schema", "written_schema"]
+
+_MODELS = (
+    Dispersions, Distribution, MonteCarlo, Normal, TruncatedNormal, ReportEntry, ScenarioEntry, Sweep, SweptDesign,
+)  # fmt: skip
+_DATA_FILE = r"\.ya?ml$"
+
+
+def benchmark_schema(benchmark: Benchmark, *, called: str = "", designs: Sequence[str] = ()) -> dict[str, Any]:
+    """JSON schema (2020-12) of a campaign on a benchmark.
+
+    It refuses what JSON Schema can express: unknown keys and names, values outside of their range, keys of another unit,
+    keys that exclude each other. What needs arithmetic, other files or other keys of the same name is left to
+    `fddbench.read`.
+
+    Parameters
+    ----------
+    called : str
+        How campaigns name it, where that is not its own name: ``mine.py:Mine``.
+    designs : sequence of str
+        Shipped designs that fit it, to be offered; others are files of one's own.
+    """
+    named = called or benchmark.name
+    schema = written_schema(tuple(benchmark.choices))
+    properties = schema["properties"]
+    properties["benchmark"] |= {"const": named, "description": benchmark.about}
+    for key, choice in benchmark.choices.items():
+        properties[key] = {**titled(key, f"{choice.about}; default {default_of(choice)}"), **_options(choice)}
+    definitions = schema["$defs"]
+    definitions["design"] = one_of_names(designs, None, NAME_PATTERN)
+    definitions["SweptDesign"]["properties"]["design"] = {"$ref": "#/$defs/design", **titled("design")}
+    properties["detectors"]["items"] = {
+        "anyOf": [{"$ref": "#/$defs/design"}, {"$ref": "#/$defs/SweptDesign"}],
+    }
+    rules = list(name_rules(benchmark, definitions))
+    del schema["description"]
+    return {
+        "$schema": DIALECT,
+        "$id": f"urn:fddbench:campaign:{benchmark.name}",
+        "title": f"fddbench campaign on {named}",
+        "description": benchmark.about,
+        **schema,
+        "allOf": [*schema["allOf"], *rules],
+    }
+
+
+def written_schema(choices: tuple[str, ...]) -> Schema:
+    """Schema of the keys of a campaign with these choices, whatever their benchmark knows."""
+    model = campaign_file(choices)
+    schema = described(model.model_json_schema(), CampaignFile)
+    definitions = schema["$defs"]
+    for one in _MODELS:
+        if one.__name__ in definitions:
+            described(definitions[one.__name__], one)
+    for name in ("Distribution", "Sweep"):
+        definitions[name] |= {"minProperties": 1, "maxProperties": 1}
+    definitions["MonteCarlo"]["properties"]["runs"]["maximum"] = MOST_CASES
+    healthy = {"not": {"required": ["faults"], "properties": {"faults": {"minItems": 1}}}}
+    no_limit = {"properties": {"detection_time_limit_s": {"type": "null"}}}
+    definitions["ScenarioEntry"]["allOf"] = [when(healthy, no_limit)]
+    schema["properties"]["detectors"]["uniqueItems"] = True
+    tuning = {"properties": {"purpose": {"const": "tuning"}}, "required": ["purpose"]}
+    schema["allOf"] = [when(tuning, {"properties": {"reconfigure": {"type": "null"}}})]
+    return schema
+
+
+def _options(choice: Choice) -> Schema:
+    """What a campaign may choose: the options, registered members of the family, and files."""
+    known = dict.fromkeys((*choice.options, *(kinds.known(choice.family) if choice.family else ())))
+    patterns = [FILE_KIND] if choice.family else []
+    patterns += [_DATA_FILE] if choice.reads else []
+    found = one_of_names(known, options_in_words(choice), *patterns)
+    found["anyOf"].append({"type": "null"})
+    return found

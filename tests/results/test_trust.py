@@ -1,0 +1,131 @@
+"""Code that lies in a folder of results runs only where it was flown, or where its user said so."""
+
+import os
+import shutil
+from pathlib import Path
+
+import pytest
+
+import fddbench
+from fddbench import plugin_files, private
+from fddbench.cli import main
+from fddbench.errors import UntrustedError
+from fddbench.results import trust
+
+PLUGIN = """
+from pathlib import Path
+Path({mark!r}).touch()  # whoever imports this file leaves a trace
+{copy}
+"""
+CAMPAIGN = """
+name: brought
+benchmark: yaw_rate
+seed: 7
+duration_s: 4.0
+scenarios:
+  - {name: healthy, manoeuvre: cruise}
+detectors: [own]
+"""
+
+
+@pytest.fixture
+def elsewhere(tmp_path, monkeypatch):
+    """A folder of results with a plug-in that another user flew, and the trace that the plug-in leaves when it is run."""
+    mark, there = tmp_path / "it_ran", tmp_path / "there"
+    there.mkdir()
+    shutil.copytree(fddbench.gallery.folder("detectors"), tmp_path / "gallery")
+    copy = (tmp_path / "gallery" / "cusum_example.py").read_text()
+    (there / "brought.yaml").write_text(CAMPAIGN)
+    (there / "detectors").mkdir()
+    (there / "detectors" / "cusum_example.py").write_text(PLUGIN.format(mark=str(mark), copy=copy))
+    (there / "detectors" / "own.yaml").write_text((tmp_path / "gallery" / "cusum_example.yaml").read_text())
+    monkeypatch.setenv("FDDBENCH_CACHE", str(tmp_path / "their_cache"))
+    monkeypatch.setattr(trust, "_known", set())
+    out = tmp_path / "results"
+    assert main(["run", str(there / "brought.yaml"), "--out", str(out), "--quiet"]) == 0
+    assert mark.exists()
+    assert fddbench.verify(out, refly=1) is not None  # its own user goes on as before
+    monkeypatch.setenv("FDDBENCH_CACHE", str(tmp_path / "our_cache"))
+    trust._known.clear()
+    plugin_files._loaded.clear()  # as in a process of one's own
+    mark.unlink()
+    return out, mark
+
+
+@pytest.mark.parametrize(
+    "command",
+    [["report"], ["replay", "healthy/0/0/0"], ["scores"], ["verify", "--refly", "1"], ["finding"]],
+    ids=lambda command: command[0],
+)
+def test_code_from_elsewhere_is_not_run(elsewhere, capsys, command):
+    out, mark = elsewhere
+    assert main([command[0], str(out), *command[1:]]) in {0, 2}
+    assert not mark.exists()
+    assert "cusum_example.py" in capsys.readouterr().err
+
+
+def test_rows_of_somebody_elses_code_are_counted_without_it(elsewhere):
+    out, mark = elsewhere
+    assert fddbench.load(out)["status"].tolist() == ["ok"]
+    assert fddbench.summary(out)["detector"].tolist() == ["own"]
+    assert not mark.exists()
+
+
+def test_trusted_once_it_runs_until_it_changes(elsewhere, capsys):
+    out, mark = elsewhere
+    assert main(["replay", str(out), "healthy/0/0/0", "--trust"]) == 0
+    assert mark.exists()
+    assert main(["replay", str(out), "healthy/0/0/0"]) == 0
+    shutil.copytree(out, out.parent / "moved")  # it is the code that is known, not the folder
+    assert len(fddbench.signals(out.parent / "moved", "healthy").time_s)
+    (out / "helpful.py").write_text("")  # what could be imported beside it is no part of what was trusted
+    with pytest.raises(UntrustedError):
+        fddbench.signals(out, "healthy")
+
+
+def test_a_campaign_that_hides_its_plugin_does_not_run_it(elsewhere):
+    out, mark = elsewhere
+    provenance = out / "provenance.json"
+    provenance.write_text(provenance.read_text().replace("detectors/cusum_example.py", "detectors/cusum_example.txt"))
+    with pytest.raises(fddbench.errors.FddbenchError):
+        fddbench.signals(out, "healthy")
+    assert not mark.exists()
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid"), reason="permissions of POSIX")
+@pytest.mark.parametrize("mode", [0o770, 0o707])
+def test_a_folder_that_others_may_write_is_not_private(tmp_path, monkeypatch, mode):
+    where = tmp_path / "shared"
+    where.mkdir(mode=0o700)
+    where.joinpath("a").write_bytes(b"theirs")
+    assert private.read(where / "a") == b"theirs"
+    where.chmod(mode)
+    assert "written by others" in private.trouble(where)
+    assert private.read(where / "a") is None
+    with pytest.raises(PermissionError, match="written by others"):
+        private.made(where)
+    monkeypatch.setenv("FDDBENCH_CACHE", str(where))
+    monkeypatch.setattr(trust, "_known", set())
+    trust.remember("ab")
+    assert trust.is_known("ab")  # as long as this process lasts
+    trust._known.clear()
+    assert not trust.is_known("ab")
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid"), reason="permissions of POSIX")
+def test_a_file_that_others_may_write_and_a_link_are_not_read(tmp_path):
+    own = private.made(tmp_path / "own")
+    (own / "a").write_bytes(b"x")
+    (own / "a").chmod(0o666)
+    assert private.read(own / "a") is None
+    (own / "b").symlink_to(Path(__file__))
+    assert private.read(own / "b") is None
+
+
+@pytest.mark.skipif(getattr(os, "geteuid", lambda: 1)() != 0, reason="only root can give a file away")
+def test_a_folder_of_another_user_is_not_private(tmp_path):
+    own = private.made(tmp_path / "own")
+    (own / "a").write_bytes(b"x")
+    os.chown(own, 65534, 65534)
+    assert "another user" in private.trouble(own)
+    assert private.read(own / "a") is None
