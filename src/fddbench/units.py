@@ -197,5 +197,7 @@ def converts(one: str, other: str) -> float:
             raise FddbenchError(f"no unit is called {each!r}; recordings may be in {known}")
     (quantity, factor), (wanted, per) = FACTORS[one], FACTORS[other]
     if quantity != wanted:
-        raise FddbenchError(f"{one or 'a plain number'} is no unit of {wanted} and cannot become {other or 'a plain number'}")
+        raise FddbenchError(
+            f"{one or 'a plain number'} is no unit of {wanted} and cannot become {other or 'a plain number'}"
+        )
     return 1.0 if one == other else factor / per

@@ -42,7 +42,7 @@ def report_data(folder: Path) -> ReportData:
     campaign = frozen(folder)
     content: dict[str, Any] = {name: getattr(campaign, name) for name in _SETTINGS} | dict(campaign.choices)
     content |= yaml.safe_load(campaign.text)
-    assembly, bench = assemble(campaign), campaign.bench
+    assembly, bench, shown = assemble(campaign), campaign.bench, campaign.shown
     loads = {
         name: in_words(detector_load(detector, assembly.loop.bus, timed=False))
         for name, detector in assembly.detectors.items()
@@ -72,7 +72,7 @@ def report_data(folder: Path) -> ReportData:
                 campaign,
                 chosen,
                 seconds=_seconds(rows),
-                signals=bench.shown,
+                signals=shown,
                 scenarios=list(pictured["scenario"].unique()),
             )
         ),
@@ -106,10 +106,10 @@ def _pictured(rows: pd.DataFrame, content: Mapping[str, Any]) -> pd.DataFrame:
 
 def _bands(campaign: Campaign, rows: pd.DataFrame, content: Mapping[str, Any]) -> dict[str, Any]:
     """Bands of all flights, where the campaign asks for them, and what goes on their pictures."""
-    bench, responses = campaign.bench, tuple(getattr(campaign.plant, "responses", ()))
-    found: dict[str, Any] = {"responses": responses, "shown": bench.shown}
+    shown, responses = campaign.shown, tuple(getattr(campaign.plant, "responses", ()))
+    found: dict[str, Any] = {"responses": responses, "shown": shown}
     if (content.get("report") or {}).get("bands"):
-        names = names_in(responses, bench.shown)
+        names = names_in(responses, shown)
         found["bands"] = list(bands_of(campaign, rows, signals=names, seconds=_seconds(rows)))
     return found
 

@@ -49,6 +49,7 @@ def _run(path: Path, args: argparse.Namespace) -> int:
     """Fly one campaign."""
     from fddbench.api import campaigns
     from fddbench.cli.progress import shown
+    from fddbench.results.folder import provenance_of
 
     campaign = campaigns.read(path, args.overrides)
     kept: list[tuple[pd.DataFrame, pd.DataFrame]] = []
@@ -75,6 +76,8 @@ def _run(path: Path, args: argparse.Namespace) -> int:
     _summary(folder, kept[0], wide=args.wide, failed=report.failed_rows > 0)
     again = f", {report.continued} found done" if report.continued else ""
     print(f"\n{report.flights} flights flown{again} in {report.wall_s:.1f} s; results in {folder}")
+    for name, said in provenance_of(folder).get("logs", {}).items():
+        print(f"log {name}: {said}")
     print(f"next: fddbench report {folder}")
     return 1 if report.failed_rows else 0
 

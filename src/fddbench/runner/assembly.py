@@ -162,7 +162,9 @@ class Assembly:
         if hasattr(self.plan.plant, "longest_s"):
             late = np.where(faults.first < NEVER, faults.last_onset, 0.0).max(axis=0, initial=0.0)
             for i in np.flatnonzero(late >= n_samples).tolist():
-                reasons[i] = f"a fault begins at {late[i] * sample_s:g} s, after the log's end at {(n_samples[i] - 1) * sample_s:g} s"
+                reasons[i] = (
+                    f"a fault begins at {late[i] * sample_s:g} s, after the log's end at {(n_samples[i] - 1) * sample_s:g} s"
+                )
         for limit in self.plan.plant.parameters:
             drawn = parameters[limit.name]
             for i in np.flatnonzero((drawn < limit.low) | (drawn > limit.high)).tolist():

@@ -64,7 +64,7 @@ def _bands(
 ) -> Bands:
     assembly, chosen = flyer.assembly, names[:MOST_FLIGHTS]
     batch = assembly.batch(assembly.plan.numbers(chosen, planned.name))
-    at = _samples(assembly, planned, batch, seconds)
+    at = _samples(assembly, batch, seconds)
     kept = _kept(assembly, signals)
     shown = {name: ("residual", *own.recorded) for name, own in assembly.detectors.items()}
     asked = [*kept, *(f"{name}:{signal}" for name, own in shown.items() for signal in ("n_declared", *own))]
@@ -89,7 +89,7 @@ def _bands(
     )
 
 
-def _samples(assembly: Assembly, planned: PlannedScenario, batch: Batch, seconds: float | None) -> Samples:
+def _samples(assembly: Assembly, batch: Batch, seconds: float | None) -> Samples:
     """Samples that are kept: about 300 of the flight, or from 1 s before the first onset on."""
     per_s, first, last = 1.0 / assembly.loop.bus.sample_s, 0, int(assembly.ends(batch).max())
     begun = batch.faults.k0[batch.faults.k0 < NEVER]

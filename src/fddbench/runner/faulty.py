@@ -16,7 +16,7 @@ __all__ = ["BatchFaults", "batch_faults"]
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class BatchFaults:
-    """Faults of some cases; a line is a fault of a scenario, in the order of the file, or behind them one that is in what flies.
+    """Faults of some cases; a line is a fault of a scenario, in the order of the file, or behind them one in what flies.
 
     Attributes
     ----------

@@ -5,7 +5,6 @@ from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
 from threading import Lock
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -184,7 +183,10 @@ def _who(assembly: Assembly, batch: Batch, detector: str) -> Columns:
 def _with_labelled(kinds: pa.Array, batch: Batch) -> pa.Array:
     """Kinds of the faults of flights joined by +, with a word for each that is in what flies."""
     counts = (batch.faults.labelled < NEVER).any(axis=1).sum(axis=0).tolist()
-    texts = ["+".join([*filter(None, [kind]), *[IN_LOG] * n]) or None for kind, n in zip(kinds.to_pylist(), counts, strict=True)]
+    texts = [
+        "+".join([*filter(None, [kind]), *[IN_LOG] * n]) or None
+        for kind, n in zip(kinds.to_pylist(), counts, strict=True)
+    ]
     return pa.array(texts, pa.string())
 
 

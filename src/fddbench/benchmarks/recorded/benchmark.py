@@ -31,7 +31,9 @@ class Recorded:
             about="which flights: a mapping of logs beside the campaign, mine.yaml",
             options=_LOGS,
             reads=read_plant,
-            says={"yaw_rate_flights": "four flights of the yaw-rate benchmark, two of them faulty"},
+            says={
+                "yaw_rate_flights": "two flights of the yaw-rate benchmark: 1 healthy, 2 with a sensor that is wrong"
+            },
         ),
         "voter": Choice(
             about="how redundant channels are voted",

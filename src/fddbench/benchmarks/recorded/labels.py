@@ -44,7 +44,9 @@ def read_labels(
         text = path.read_text(encoding="utf-8-sig")
         lines = [line for line in text.splitlines() if not line.startswith("#")]
         header = len(text.splitlines()) - len(lines)
-        table = pd.read_csv(StringIO("\n".join(lines)), dtype=str, keep_default_na=False, skipinitialspace=True, index_col=False)
+        table = pd.read_csv(
+            StringIO("\n".join(lines)), dtype=str, keep_default_na=False, skipinitialspace=True, index_col=False
+        )
     except Exception as error:  # pandas raises many kinds
         return (), [f"{path}: cannot be read as a table of faults: {reason_of(error)}"]
     table = table.rename(columns=lambda name: str(name).strip())
@@ -65,21 +67,29 @@ def read_labels(
 def _label(row: Mapping[Any, Any], logs: Mapping[str, tuple[float, float]], sites: Sequence[str]) -> Label:
     log, names = row["log"].strip(), tuple(name.strip() for name in row["sites"].split("+"))
     if log not in logs:
-        raise FddbenchError(" ".join(filter(None, (f"no log is called {log!r}.", did_you_mean(log, logs), f"Known: {', '.join(logs)}"))))
+        raise FddbenchError(
+            " ".join(filter(None, (f"no log is called {log!r}.", did_you_mean(log, logs), f"Known: {', '.join(logs)}")))
+        )
     for name in names:
         if name not in sites or names.count(name) > 1:
             known = f"Known: {', '.join(sites)}; several are joined by +"
-            raise FddbenchError(" ".join(filter(None, (f"no fault site is called {name!r}, or twice.", did_you_mean(name, sites), known))))
+            raise FddbenchError(
+                " ".join(
+                    filter(None, (f"no fault site is called {name!r}, or twice.", did_you_mean(name, sites), known))
+                )
+            )
     begin_s, last_s = logs[log]
     onset_s = _time("onset_s", row["onset_s"])
     end_s = _time("end_s", row["end_s"]) if str(row.get("end_s", "")).strip() else None
     if not begin_s <= onset_s <= last_s:
         raise FddbenchError(
-            f"onset_s = {onset_s:.10g} lies outside of what is flown of log {log}, {begin_s:.10g} to {last_s:.10g} s of its own "
-            "time; correct it, or fly another piece (start_s, end_s of the log)"
+            f"onset_s = {onset_s:.10g} lies outside of what is flown of log {log}, {begin_s:.10g} to {last_s:.10g} s of its "
+            "own time; correct it, or fly another piece (start_s, end_s of the log)"
         )
     if end_s is not None and not onset_s < end_s:
-        raise FddbenchError(f"end_s = {end_s:.10g} does not lie after onset_s = {onset_s:.10g}; leave it empty for a fault that stays")
+        raise FddbenchError(
+            f"end_s = {end_s:.10g} does not lie after onset_s = {onset_s:.10g}; leave it empty for a fault that stays"
+        )
     return Label(list(logs).index(log), names, onset_s - begin_s, None if end_s is None else end_s - begin_s)
 
 

@@ -40,7 +40,7 @@ class RecordedConstants:
 
 
 class RecordedLoop:
-    """Open loop of recorded flights, see `fddbench.interfaces.Loop`: what detectors see is what was logged, with faults injected.
+    """Open loop of recorded flights, see `fddbench.interfaces.Loop`: detectors see what was logged, with injected faults.
 
     Nothing that was logged answers to an injected fault but what is voted here.
 
@@ -81,7 +81,9 @@ class RecordedLoop:
         }
         self.lengths = np.array([len(next(iter(each.values())).values) for each in sampled])
         numbers = sum(map(len, self.tables.values()))
-        self.in_python = f"the logs hold {numbers:,} numbers, at most {MOST_NUMBERS:,} are compiled" * (numbers > MOST_NUMBERS)
+        self.in_python = f"the logs hold {numbers:,} numbers, at most {MOST_NUMBERS:,} are compiled" * (
+            numbers > MOST_NUMBERS
+        )
 
     def prepare(self, flights: Flights) -> Prepared:
         """Where each log lies in the tables; a fault that begins after the end of its log cannot be flown."""
@@ -146,4 +148,3 @@ class RecordedLoop:
     def _errors(self, voted: Mapping[str, Row], truth: Mapping[str, Row]) -> dict[str, Row]:
         true = {name: one.true for name, one in self.plant.mapping.signals.items() if one.true is not None}
         return {name: voted[name] - truth[other] for name, other in true.items()}
-

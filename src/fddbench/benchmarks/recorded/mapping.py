@@ -10,7 +10,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationErr
 from fddbench.errors import FddbenchError, did_you_mean
 from fddbench.units import FACTORS
 
-__all__ = ["Log", "Mapped", "Mapping_", "SitesOn", "TimeOf", "read_mapping"]
+__all__ = ["ChannelMap", "Log", "Mapped", "SitesOn", "TimeOf", "read_mapping"]
 
 ENDINGS = (".csv", ".parquet", ".ulg")
 _LARGEST = 1_000_000
@@ -98,7 +98,9 @@ class Mapped(_Strict):
 
     @model_validator(mode="after")
     def _one(self) -> Self:
-        given = [key for key, own in (("from", self.channels), ("value", self.value), ("vote", self.vote)) if own is not None]
+        given = [
+            key for key, own in (("from", self.channels), ("value", self.value), ("vote", self.vote)) if own is not None
+        ]
         if len(given) != 1:
             raise ValueError(f"need exactly one of from | value | vote, got {', '.join(given) or 'none'}")
         if self.channels == () or self.value == ():
@@ -144,7 +146,7 @@ class SitesOn(_Strict):
     limits_s: Annotated[tuple[Annotated[float, Field(gt=0.0, allow_inf_nan=False)], ...], Field(min_length=1)]
 
 
-class Mapping_(_Strict):
+class ChannelMap(_Strict):
     """A mapping as it is written.
 
     Attributes
@@ -171,7 +173,7 @@ class Mapping_(_Strict):
     faults: Annotated[str, AfterValidator(_inside)] | None = None
 
 
-def read_mapping(path: Path) -> Mapping_:
+def read_mapping(path: Path) -> ChannelMap:
     """Mapping of a YAML file.
 
     Raises
@@ -181,7 +183,7 @@ def read_mapping(path: Path) -> Mapping_:
     """
     data = _data(path)
     try:
-        return Mapping_.model_validate(_without_units(data))
+        return ChannelMap.model_validate(_without_units(data))
     except ValidationError as error:
         raise FddbenchError("\n".join(f"{path}: {_line(each)}" for each in error.errors())) from None
 
@@ -201,7 +203,7 @@ def _data(path: Path) -> dict[str, Any]:
 
 
 def _without_units(data: dict[str, Any]) -> dict[str, Any]:
-    """The same with ``admissible`` and ``stops`` for keys that carry the unit of their signal; other units stay unknown keys."""
+    """The same with ``admissible`` and ``stops`` for keys that carry the unit of their signal."""
     from fddbench.units import suffix_of_name
 
     sites = data.get("sites")

@@ -1,6 +1,6 @@
 """What is flown: the logs of a mapping, as a benchmark sees them."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -11,7 +11,7 @@ import numpy.typing as npt
 from fddbench.benchmarks.recorded.consistent import inconsistent
 from fddbench.benchmarks.recorded.labels import Label, labelled, read_labels
 from fddbench.benchmarks.recorded.logs import Channel, Piece, read_logs
-from fddbench.benchmarks.recorded.mapping import Mapping_, read_mapping
+from fddbench.benchmarks.recorded.mapping import ChannelMap, read_mapping
 from fddbench.benchmarks.recorded.resampling import OnClock, on_clock
 from fddbench.errors import FddbenchError
 from fddbench.interfaces import Floats, Labelled, Parameter, Site
@@ -29,7 +29,7 @@ class RecordedPlant:
 
     Attributes
     ----------
-    mapping : Mapping_
+    mapping : ChannelMap
         What is in them.
     pieces : tuple of Piece
         What is flown of each.
@@ -39,7 +39,7 @@ class RecordedPlant:
         Everything but the mapping that travels with a campaign, by its name in the folder of the mapping.
     """
 
-    mapping: Mapping_
+    mapping: ChannelMap
     pieces: tuple[Piece, ...]
     labels: tuple[Label, ...]
     files: Mapping[str, bytes]
@@ -69,6 +69,12 @@ class RecordedPlant:
         names = ", ".join(f"{number} {piece.name}" for number, piece in enumerate(self.pieces, 1))
         about = f"which log: {names}; all of them with `grid: {{log: {list(range(1, len(self.pieces) + 1))}}}`"
         return (Parameter(name="log", about=about, default=1.0, low=1.0, high=float(len(self.pieces)), whole=True),)
+
+    @property
+    def shown(self) -> tuple[str, ...]:
+        """Signals in the pictures: those that faults sit on, and what is voted of them."""
+        voted = [name for name, one in self.mapping.signals.items() if one.vote is not None]
+        return (*(on.signal for on in self.mapping.sites), *voted)
 
     @property
     def manoeuvres(self) -> Mapping[str, float]:
@@ -109,18 +115,25 @@ class RecordedPlant:
             for piece in self.pieces
         )
 
-    def notes(self, sample_s: float) -> Iterator[str]:
-        """What there is to say of the logs on this clock: their length, gaps, faults, and the error of resampling."""
+    def notes(self, sample_s: float) -> dict[str, str]:
+        """What there is to say of each log on this clock: length, gaps, faults, and the error of resampling."""
         how = {"previous": "the row before is held", "linear": "straight from row to row"}[self.mapping.between]
+        found = {}
         for number, (piece, channels) in enumerate(zip(self.pieces, self.sampled(sample_s), strict=True)):
-            faults = [each for each in self.labels if each.log == number]
-            said = "; ".join(f"{'+'.join(each.sites)} from {each.onset_s:g} s" for each in faults)
-            skipped = f", {piece.skipped} cells without a value skipped" if piece.skipped else ""
-            yield (
-                f"log {number + 1} {piece.name} ({piece.file}): {piece.length_s:g} s from {piece.begin_s:g} s on, "
-                f"{f'faults in it: {said}' if said else 'healthy'}, largest gap {piece.gap_s:.4g} s in {piece.gap_of}{skipped}"
-            )
-            yield f"    on the clock {_resampled(channels, how)}"
+            faults = "; ".join(f"{'+'.join(one.sites)} {_when(one)}" for one in self.labels if one.log == number)
+            parts = [
+                f"{piece.file}, {piece.length_s:g} s from {piece.begin_s:g} s on",
+                f"faulty: {faults}" if faults else "healthy",
+                f"largest gap {piece.gap_s:.4g} s ({piece.gap_of})",
+                f"{piece.skipped} cells without a value skipped" if piece.skipped else "",
+                f"resampled {_resampled(channels, how)}",
+            ]
+            found[f"{number + 1} {piece.name}"] = "; ".join(filter(None, parts))
+        return found
+
+
+def _when(label: Label) -> str:
+    return f"from {label.onset_s:g} s" + ("" if label.end_s is None else f" to {label.end_s:g} s")
 
 
 def _resampled(channels: Mapping[Channel, OnClock], how: str) -> str:
@@ -131,11 +144,11 @@ def _resampled(channels: Mapping[Channel, OnClock], how: str) -> str:
             rms, largest = worst.get(name, (0.0, 0.0))
             worst[name] = (max(rms, own.rms), max(largest, own.largest))
     unused = max(own.unused for own in channels.values())
-    thinned = f"; up to {unused} rows of a channel fall between two samples and are not used, unfiltered" if unused else ""
+    thinned = f"; up to {unused} rows of a channel between two samples not used, nothing filtered" if unused else ""
     if not worst:
-        return f"exactly: every sample has a row of its own{thinned}"
-    each = ", ".join(f"{name} {rms:.2g} (largest {largest:.2g})" for name, (rms, largest) in worst.items())
-    return f"{how}; estimated error, root mean square: {each}{thinned}"
+        return f"exactly, every sample has a row of its own{thinned}"
+    each = ", ".join(f"{name} {rms:.2g} ({largest:.2g})" for name, (rms, largest) in worst.items())
+    return f"({how}) with an estimated error, rms (largest), of {each}{thinned}"
 
 
 def read_plant(path: Path) -> RecordedPlant:

@@ -50,9 +50,7 @@ def checked(time_s: Floats, values: Floats, *, column: str, time: str, missing: 
         _require_finite(np.where(np.isnan(values), 0.0, values), column, place, "remove the row")
     rows = np.flatnonzero(there)
     if len(rows) < 2:
-        raise FddbenchError(
-            f"{place(0).rsplit(':', 1)[0].rsplit(' row', 1)[0]}: {column} has {len(rows)} usable rows; a channel needs two or more"
-        )
+        raise FddbenchError(f"{place(0)}: {column} has {len(rows)} usable rows; a channel needs two or more")
     kept = time_s[rows]
     falls = np.flatnonzero(np.diff(kept) <= 0.0)
     if len(falls):
@@ -62,7 +60,9 @@ def checked(time_s: Floats, values: Floats, *, column: str, time: str, missing: 
         cure = "leave each time once" if same else "sort the rows, or cut the log where its clock was set back"
         more = f" ({len(falls)} rows are so)" if len(falls) > 1 else ""
         raise FddbenchError(f"{place(int(rows[row]))}: {time} = {kept[row]:.10g} s {what}; {cure}{more}")
-    return Series(time_s=kept, values=values[rows], skipped=len(values) - len(rows), place=lambda at: place(int(rows[at])))
+    return Series(
+        time_s=kept, values=values[rows], skipped=len(values) - len(rows), place=lambda at: place(int(rows[at]))
+    )
 
 
 def _require_finite(numbers: Floats, column: str, place: Place, cure: str) -> None:

@@ -54,9 +54,7 @@ class _Table:
         """A channel, see `fddbench.benchmarks.recorded.reading.LogFile`."""
         self._require(column)
         values = self._numbers(column)
-        return checked(
-            self.time_s, values, column=column, time=self.time.column, missing=missing, place=self.place
-        )
+        return checked(self.time_s, values, column=column, time=self.time.column, missing=missing, place=self.place)
 
     def _numbers(self, column: str) -> Floats:
         """A column; not-a-number where a cell is empty.
@@ -75,8 +73,10 @@ class _Table:
         numbers = np.array([_number(cell) for cell in cells], dtype=object)
         wrong = [row for row, number in enumerate(numbers) if number is None]
         if wrong:
-            cell, comma = str(cells.iloc[wrong[0]]), "; decimals are written with a point" * (
-                re.fullmatch(r"-?\d+,\d+", str(cells.iloc[wrong[0]])) is not None
+            cell, comma = (
+                str(cells.iloc[wrong[0]]),
+                "; decimals are written with a point"
+                * (re.fullmatch(r"-?\d+,\d+", str(cells.iloc[wrong[0]])) is not None),
             )
             raise FddbenchError(
                 f"{self.place(wrong[0])}: {column} is {cell!r:.40}, it must be a number{comma}; correct or remove the row "
@@ -119,7 +119,9 @@ class CsvLog(_Table):
         )  # fmt: skip
         names = [str(name).strip() for name in table.iloc[0]]
         table = table.iloc[1:].reset_index(drop=True)
-        while len(table) and all(cell == "" or cell is None for cell in table.iloc[-1].where(table.iloc[-1].notna(), "")):
+        while len(table) and all(
+            cell == "" or cell is None for cell in table.iloc[-1].where(table.iloc[-1].notna(), "")
+        ):
             table = table.iloc[:-1]
         table.columns = pd.Index(names)
         super().__init__(path, time, table, header + 2)

@@ -1,4 +1,4 @@
-"""PX4 logs (ULog): every topic has times of its own; a channel is ``topic.field``, ``topic[1].field`` of the second instance."""
+"""PX4 logs (ULog): topics have times of their own; a channel is ``topic.field``, of the second instance ``topic[1].field``."""
 
 import re
 from functools import cached_property
@@ -73,7 +73,7 @@ class UlogLog:
         topic, instance, field = found["topic"], int(found["instance"] or 0), found["field"]
         data = self._topics.get((topic, instance), {})
         if field not in data:
-            self._refuse(column, topic, instance, data)
+            self._refuse(column, topic, data)
         stamps = data["timestamp"].astype(np.int64) - int(self._log.start_timestamp)
         place = f"{self.path} {topic}{f'[{instance}]' if instance else ''} row "
         return checked(
@@ -81,7 +81,7 @@ class UlogLog:
             place=lambda row: f"{place}{row}",
         )  # fmt: skip
 
-    def _refuse(self, column: str, topic: str, instance: int, data: Any) -> None:
+    def _refuse(self, column: str, topic: str, data: Any) -> None:
         hint = did_you_mean(column, self.columns)
         if data:
             known = f"{topic} has {', '.join(name for name in data if name != 'timestamp')}"
