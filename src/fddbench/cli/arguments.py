@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from fddbench import __version__
-from fddbench.cli import aircraft, commands, completing, counting, designing, exporting, looking
+from fddbench.cli import aircraft, commands, completing, counting, data_sets, designing, exporting, looking
 from fddbench.cli.added import add
 from fddbench.cli.checked_numbers import flights as _flights
 from fddbench.cli.checked_numbers import jobs as _jobs
@@ -60,6 +60,9 @@ def parser() -> argparse.ArgumentParser:
     )  # fmt: skip
 
     exporting.arguments(add(subs, "export", exporting.export))
+    data = add(subs, "dataset", data_sets.dataset)
+    _campaign(data)
+    data_sets.dataset_arguments(data)
     _bound(add(subs, "bound", commands.bound))
 
     check = add(subs, "check", commands.check)
@@ -132,11 +135,14 @@ def _asking(subs) -> None:  # type: ignore[no-untyped-def]
     )  # fmt: skip
     init = add(subs, "init", commands.init)
     init.add_argument("folder", type=Path, nargs="?", default=Path(), metavar="DIR", help="where to (default: here)")
-    names = "[--detector NAME | --benchmark NAME |\n                     --fault NAME | --campaign NAME]"
+    names = (
+        "[--detector NAME | --trained NAME |\n                     --benchmark NAME | --fault NAME | --campaign NAME]"
+    )
     init.usage = f"fddbench init [-h] [DIR] {names}"  # argparse does not break a group
     one = init.add_mutually_exclusive_group()
-    for what in ("detector", "benchmark", "fault", "campaign"):
-        one.add_argument(f"--{what}", metavar="NAME", help=f"a small {what} of your own, and a campaign that flies it")
+    for what in ("detector", "trained", "benchmark", "fault", "campaign"):
+        said = "detector that is trained on labelled flights" if what == "trained" else f"{what} of your own"
+        one.add_argument(f"--{what}", metavar="NAME", help=f"a small {said}, and a campaign that flies it")
     schema = add(subs, "schema", commands.schema)
     schema.add_argument("subject", nargs="?", default="", metavar="BENCHMARK", help="name of a benchmark, or designs")
     schema.add_argument("--output", type=Path, metavar="FILE", help="file to write (default: print it)")

@@ -222,7 +222,9 @@ def list_(args: argparse.Namespace) -> int:
 
 
 def init(args: argparse.Namespace) -> int:
-    """Write files to start from: a detector, benchmark, fault or campaign of your own, or copies of the shipped ones.
+    """Write files to start from: of your own or copies of the shipped ones.
+
+    A detector, one that is trained, a benchmark, a fault or a campaign.
 
     What is there already is left alone.
     """
@@ -233,7 +235,8 @@ def init(args: argparse.Namespace) -> int:
         if name is not None:
             written = start(args.folder, what, name)
             print(*written, sep="\n")
-            print(f"next: fddbench run {written[-1]}")
+            first = f"python {args.folder / 'detectors' / f'train_{name}.py'}, then " if what == "trained" else ""
+            print(f"next: {first}fddbench run {written[-1]}")
             return 0
     for path in copy_shipped(args.folder):
         print(path)

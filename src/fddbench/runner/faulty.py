@@ -9,7 +9,7 @@ from fddbench.campaign.addresses import Addresses, Numbers
 from fddbench.campaign.plan import Plan
 from fddbench.faults.timing import first_samples, last_sample
 from fddbench.interfaces import NEVER, Fault, Floats
-from fddbench.runner.labelled import add_labelled, in_what_flies
+from fddbench.runner.in_log import add_labelled, in_what_flies
 
 __all__ = ["BatchFaults", "batch_faults"]
 

@@ -25,7 +25,7 @@ from fddbench.runner.chunks import Spans, expand, spans
 from fddbench.runner.fingerprint import frozen_to_fly
 from fddbench.runner.flight import Flyer, Outcome
 from fddbench.runner.given_up import GivenUps
-from fddbench.runner.labelled import names_of
+from fddbench.runner.in_log import names_of
 
 __all__ = ["Work", "fly_and_write", "flyer_of", "lent", "rows_and_events", "rows_of", "schemas_of"]
 
