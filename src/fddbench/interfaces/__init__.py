@@ -21,7 +21,7 @@ from fddbench.interfaces.detector import Detector, Tunable, Verdict, Voter
 from fddbench.interfaces.fault import Fault, FaultBlock, Instant
 from fddbench.interfaces.floats import NEVER, Floats
 from fddbench.interfaces.ideal import IdealModel
-from fddbench.interfaces.labelled import IN_LOG, Labelled
+from fddbench.interfaces.logged_faults import IN_LOG, LoggedFaults
 from fddbench.interfaces.loop import FlightFaults, Flights, Loop, Prepared, Sample
 from fddbench.interfaces.recording import QUANTILES, Bands, Recording
 from fddbench.interfaces.scheduling import AffineModel, Channel, Scheduling
@@ -47,7 +47,7 @@ __all__ = [
     "Floats",
     "IdealModel",
     "Instant",
-    "Labelled",
+    "LoggedFaults",
     "Loop",
     "Options",
     "Parameter",

@@ -149,7 +149,7 @@ class Plant(Protocol):
     bands (what the benchmark shows).
 
     One that flies what was recorded may have more: ``longest_s(parameters)``, how long flights last, (n_cases,) [s], none
-    longer than ``manoeuvres`` say; ``labelled(parameters, sample_s)``, the `Labelled` faults that are in what it flies, and
+    longer than ``manoeuvres`` say; ``labelled(parameters, sample_s)``, the `LoggedFaults` faults that are in what it flies, and
     ``n_labelled()``, the most that a flight has; ``notes(sample_s)``, what there is to say of each log; ``files``, what
     besides an option of data travels with a campaign, by name beside that option; ``shown``, instead of the benchmark's.
     """

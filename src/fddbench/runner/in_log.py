@@ -7,20 +7,20 @@ import numpy as np
 import numpy.typing as npt
 
 from fddbench.campaign.plan import Plan
-from fddbench.interfaces import NEVER, Floats, Labelled
+from fddbench.interfaces import NEVER, Floats, LoggedFaults
 from fddbench.interfaces.site import limit_s
 
 __all__ = ["add_labelled", "in_what_flies", "names_of"]
 
 
-def in_what_flies(plan: Plan, parameters: Mapping[str, Floats]) -> Labelled:
+def in_what_flies(plan: Plan, parameters: Mapping[str, Floats]) -> LoggedFaults:
     """Faults that flights bring with them."""
     plant: Any = plan.plant
-    found: Labelled = plant.labelled(parameters, plan.campaign.sample_s)
+    found: LoggedFaults = plant.labelled(parameters, plan.campaign.sample_s)
     return found
 
 
-def add_labelled(found: Any, plan: Plan, own: Labelled, scenario: npt.NDArray[np.int64], injected: int) -> None:
+def add_labelled(found: Any, plan: Plan, own: LoggedFaults, scenario: npt.NDArray[np.int64], injected: int) -> None:
     """Write their times into the last lines of `BatchFaults`, and the limits of flights that have any.
 
     Parameters

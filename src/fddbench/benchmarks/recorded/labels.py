@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from fddbench.errors import FddbenchError, did_you_mean, reason_of
-from fddbench.interfaces import NEVER, Floats, Labelled
+from fddbench.interfaces import NEVER, Floats, LoggedFaults
 
 __all__ = ["Label", "labelled", "read_labels"]
 
@@ -103,7 +103,7 @@ def _time(key: str, text: str) -> float:
     return value
 
 
-def labelled(labels: Sequence[Label], log: np.ndarray, sites: Sequence[str], sample_s: float) -> Labelled:
+def labelled(labels: Sequence[Label], log: np.ndarray, sites: Sequence[str], sample_s: float) -> LoggedFaults:
     """Labels of flights of these logs, (n_cases,) numbers from 0; a time between two samples counts from the later one."""
     own = {number: [each for each in labels if each.log == number] for number in {each.log for each in labels}}
     n_lines, n_cases = max(map(len, own.values()), default=0), len(log)
@@ -116,7 +116,7 @@ def labelled(labels: Sequence[Label], log: np.ndarray, sites: Sequence[str], sam
                 first[line, list(sites).index(site), mine] = _sample(label.onset_s, sample_s)
             if label.end_s is not None:
                 last[line, mine] = max(_sample(label.end_s, sample_s) - 1.0, _sample(label.onset_s, sample_s))
-    return Labelled(first=first, last=last)
+    return LoggedFaults(first=first, last=last)
 
 
 def _sample(time_s: float, sample_s: float) -> float:

@@ -14,7 +14,7 @@ from fddbench.benchmarks.recorded.logs import Channel, Piece, read_logs
 from fddbench.benchmarks.recorded.mapping import ChannelMap, read_mapping
 from fddbench.benchmarks.recorded.resampling import OnClock, on_clock
 from fddbench.errors import FddbenchError
-from fddbench.interfaces import Floats, Labelled, Parameter, Site
+from fddbench.interfaces import Floats, LoggedFaults, Parameter, Site
 from fddbench.units import unit_of_name
 
 __all__ = ["RecordedPlant", "read_plant"]
@@ -89,7 +89,7 @@ class RecordedPlant:
         """How long flights can last, (n_cases,) [s]."""
         return np.array([piece.length_s for piece in self.pieces])[self.numbers(parameters)]
 
-    def labelled(self, parameters: Mapping[str, Floats], sample_s: float) -> Labelled:
+    def labelled(self, parameters: Mapping[str, Floats], sample_s: float) -> LoggedFaults:
         """Faults that are in the logs of flights."""
         names = [site.name for site in self.sites]
         return labelled(self.labels, self.numbers(parameters), names, sample_s)

@@ -4,14 +4,14 @@ from dataclasses import dataclass
 
 from fddbench.interfaces.floats import Floats
 
-__all__ = ["IN_LOG", "Labelled"]
+__all__ = ["IN_LOG", "LoggedFaults"]
 
 IN_LOG = "in_log"
 """Kind of such a fault, as result columns call it."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Labelled:
+class LoggedFaults:
     """Faults of flights that a plant brings with it; scored like those of a scenario, behind which they stand.
 
     Attributes
