@@ -64,7 +64,7 @@ def report_data(folder: Path) -> ReportData:
                 campaign,
                 chosen,
                 seconds=_seconds(rows),
-                signals=bench.shown,
+                signals=campaign.shown,
                 scenarios=list(chosen),
             )
         ),
@@ -127,10 +127,10 @@ def _worst_scenarios(rows: pd.DataFrame) -> list[str]:
 
 def _bands(campaign: Campaign, rows: pd.DataFrame, content: Mapping[str, Any]) -> dict[str, Any]:
     """Bands of all flights, where the campaign asks for them, and what goes on their pictures."""
-    bench, responses = campaign.bench, tuple(getattr(campaign.plant, "responses", ()))
-    found: dict[str, Any] = {"responses": responses, "shown": bench.shown}
+    shown, responses = campaign.shown, tuple(getattr(campaign.plant, "responses", ()))
+    found: dict[str, Any] = {"responses": responses, "shown": shown}
     if (content.get("report") or {}).get("bands"):
-        names = names_in(responses, bench.shown)
+        names = names_in(responses, shown)
         found["bands"] = list(bands_of(campaign, rows, signals=names, seconds=_seconds(rows)))
     return found
 

@@ -69,6 +69,8 @@ def _run(path: Path, args: argparse.Namespace) -> int:
 
 def told(report: "RunReport", kept: "list[tuple[pd.DataFrame, pd.DataFrame]]", *, wide: bool) -> int:
     """Print how a run ended and its tables; exit code of the command."""
+    from fddbench.results.folder import provenance_of
+
     folder = report.folder
     if report.interrupted:
         done = report.continued + report.flights
@@ -81,6 +83,8 @@ def told(report: "RunReport", kept: "list[tuple[pd.DataFrame, pd.DataFrame]]", *
     _summary(folder, kept[0], wide=wide, failed=report.failed_rows > 0)
     again = f", {report.continued} found done" if report.continued else ""
     print(f"\n{report.flights} flights flown{again} in {report.wall_s:.1f} s; results in {folder}")
+    logs: dict[str, str] = provenance_of(folder).get("logs", {})
+    print("".join(f"log {name}: {said}\n" for name, said in logs.items()), end="")
     print(f"next: fddbench report {folder}")
     return 1 if report.failed_rows else 0
 
