@@ -27,6 +27,7 @@ from fddbench.reporting.page.operating import operating_scenes
 from fddbench.reporting.page.payload import payload
 from fddbench.reporting.page.ranking import Rank, beside_best, ranking
 from fddbench.reporting.page.ranks import rank_lines
+from fddbench.reporting.page.requirements import requirement_lines, requirement_sentence
 from fddbench.reporting.page.traces import signal_sections
 from fddbench.reporting.reasons import REASONS
 
@@ -77,7 +78,8 @@ def _head(report: ReportData, ranks: Sequence[Rank], columns: Columns) -> dict[s
             ranks, _second(columns, ranks), courses=courses(columns, report.swept), loudest=loudest(columns, ranks)
         ),
         "in_sample": report.in_sample,
-        "requirements": list(report.requirements),
+        "requirements": requirement_lines(report.requirements),
+        "required": requirement_sentence(report.requirements),
     }
 
 

@@ -13,8 +13,9 @@ from fddbench.reporting.page.cells import Cell
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.page.sizes import SizeCurve
 from fddbench.reporting.svg.axes import ticks_text
+from fddbench.reporting.svg.charts import Parted
 
-__all__ = ["ORDER", "counts_of", "part_names", "payload"]
+__all__ = ["ORDER", "counts_of", "part_names", "parted_of", "payload"]
 
 ORDER = ("right", "late", "undecided", "missed", "wrong_site", "false_alarm")
 """Outcomes of a cell in the payload; of a healthy one the first is quiet."""
@@ -53,6 +54,18 @@ def payload(
 def part_names(parts: Parts) -> list[str]:
     """What parts are called: their value, of a range its middle."""
     return [ticks_text(0.5 * (low + high)) for low, high in zip(parts.low.tolist(), parts.high.tolist(), strict=True)]
+
+
+def parted_of(own: Association | SizeCurve, parts: Parts | None) -> Parted:
+    """Hits, flights and interval of each part, as pictures take them; a size has its parts itself."""
+    if isinstance(own, SizeCurve):
+        parts = Parts(place=np.zeros(0, dtype=np.int64), low=own.low, high=own.high)
+        hits, ends = own.right, (own.share_low, own.share_high)
+    else:
+        hits, ends = own.failed.astype(np.float64), (own.low, own.high)
+    assert parts is not None
+    columns = (hits.astype(int).tolist(), own.flights.astype(int).tolist(), ends[0].tolist(), ends[1].tolist())
+    return list(zip(part_names(parts), *columns, strict=True))
 
 
 def _cell(cell: Cell) -> Data:
