@@ -11,7 +11,7 @@ from fddbench.errors import FddbenchError, did_you_mean
 from fddbench.metrics.alarms import summarize_alarms
 from fddbench.metrics.summary import summarize
 from fddbench.reporting.labels import label
-from fddbench.reporting.page.cells import Cell, cells, parts_of
+from fddbench.reporting.page.cells import Cell, cells
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.page.envelope import envelope_pairs, failed_map
 from fddbench.reporting.page.matrix import matrix_scene
@@ -86,11 +86,7 @@ def failures(folder: str | Path, detector: str, scenario: str, parameter: str = 
     name = parameter or next(iter(found))
     chosen = found[_known(list(found), name, "parameter among those that go with failure")]
     title = f"Failed share of {detector} in {columns.scenarios[s]} over {label(chosen.name)}"
-    return Picture(
-        parts_scene(
-            parted_of(chosen, parts_of(columns, s)[chosen.name]), name=label(chosen.name), label=title, number=d
-        )
-    )
+    return Picture(parts_scene(parted_of(chosen), name=label(chosen.name), label=title, number=d))
 
 
 def size_curve(folder: str | Path, detector: str, scenario: str) -> Picture:
@@ -107,7 +103,7 @@ def size_curve(folder: str | Path, detector: str, scenario: str) -> Picture:
     if size is None:
         raise FddbenchError(f"{folder}: no size of a fault varies in {columns.scenarios[s]}")
     title = f"Share found of {detector} in {columns.scenarios[s]} over {label(size.name)}"
-    return Picture(parts_scene(parted_of(size, None), name=label(size.name), label=title, number=d, what="right [%]"))
+    return Picture(parts_scene(parted_of(size), name=label(size.name), label=title, number=d, what="right [%]"))
 
 
 def operating_curve_picture(

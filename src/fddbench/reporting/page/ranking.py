@@ -84,7 +84,7 @@ def ranking(
         lines.append(
             Rank(
                 detector=name, number=number, faulty=len(own), decided=int(sure.sum()), undecided=int((~sure).sum()),
-                right=korn_graubard(outcome[sure] == "right", columns.whole("run")[own][sure]),
+                right=korn_graubard(outcome[sure] == "right", columns.whole("run", own[sure])),
                 outcomes=dict(zip(names.tolist(), counts.tolist(), strict=True)),
                 distinct_flights=int(line.get("distinct_flights", 0)), alarms=int(line.get("alarms", 0)),
                 alarms_high_percent=None if high is None or pd.isna(high) else float(high),
@@ -119,13 +119,15 @@ def beside_best(columns: Columns, best: int, other: int, scenario: int | None = 
 
     The difference is that of `other` less that of `best`.
     """
+    names = ("scenario", "point", "level", "run")
     sides = []
     for number in (best, other):
         places = columns.of(number) if scenario is None else columns.cell(scenario, number)
         sure = places[columns.decided[places] & columns.faulty[places]]
-        keys = [columns.scenario[sure], *(columns.whole(name)[sure] for name in ("point", "level", "run"))]
-        right = columns.texts("outcome")[sure] == "right"
-        sides.append(pd.Series(right, index=pd.MultiIndex.from_arrays(keys)))
-    both = pd.concat(sides, axis=1, join="inner")
-    a, b = both.iloc[:, 0].to_numpy(dtype=bool), both.iloc[:, 1].to_numpy(dtype=bool)
-    return paired_shares(a, b, both.index.get_level_values(3).to_numpy())
+        keys = (columns.scenario[sure], *(columns.whole(name, sure) for name in names[1:]))
+        side = pd.DataFrame(dict(zip(names, keys, strict=True)))
+        sides.append(side.assign(right=columns.texts("outcome")[sure] == "right"))
+    both = sides[0].merge(sides[1], on=list(names), suffixes=("_a", "_b"))
+    a, b = both["right_a"].to_numpy(dtype=bool), both["right_b"].to_numpy(dtype=bool)
+    run = both["run"].to_numpy()
+    return paired_shares(a, b, run)
