@@ -33,6 +33,21 @@ from fddbench.runner.replay import replay_campaign, sampled_cases
 
 __all__ = ["report_data"]
 
+_OF_EVENTS = (
+    *(
+        "scenario",
+        "event",
+        "detector",
+        "fault",
+        "sites",
+        "onset_s",
+        "end_s",
+        "run",
+        "status",
+        "outcome",
+        "detection_time_s",
+    ),
+)
 _SETTINGS = ("name", "about", "benchmark", "purpose", "seed", "sample_s", "substeps")
 _AFTER_S, _LEAST_S = 3.0, 5.0
 
@@ -54,7 +69,7 @@ def report_data(folder: Path, *, replay: bool = True) -> ReportData:
     return ReportData(
         campaign=content,
         rows=rows,
-        events=read_events(folder),
+        events=read_events(folder, _OF_EVENTS),
         provenance=_flat(provenance) | _replayed(folder, campaign),
         designs=_designs(campaign, assembly),
         **(_flown_again(campaign, rows, content) if replay else {"recordings": []}),

@@ -164,10 +164,9 @@ def _declared(columns: Columns, flown: "np.ndarray[Any, Any]") -> list[tuple[str
 
 def _worst(columns: Columns, flown: "np.ndarray[Any, Any]", failed: "np.ndarray[Any, Any]") -> list[str]:
     """Five flights that failed, or where none did the slowest: healthy sites and false alarms first, then missed, then late."""
-    outcome = columns.texts("outcome")[flown].astype(str)
-    rank = np.select(
-        [np.isin(outcome, ("false_alarm", "wrong_site")), outcome == "missed", outcome == "late"], [3, 2, 1], 0
-    )
+    outcome = columns.texts("outcome")[flown]
+    named = {name: np.asarray(outcome == name, dtype=bool) for name in ("false_alarm", "wrong_site", "missed", "late")}
+    rank = np.select([named["false_alarm"] | named["wrong_site"], named["missed"], named["late"]], [3, 2, 1], 0)
     slow = np.nan_to_num(columns.numbers("normalized_detection_time")[flown])
     margin = np.fmax(
         np.nan_to_num(columns.numbers("margin_healthy")[flown]),

@@ -103,7 +103,7 @@ class Columns:
     def failed(self) -> npt.NDArray[np.bool_]:
         """Rows in which something went wrong."""
         if "failed" not in self._known:
-            self._known["failed"] = self.ok & np.isin(self.texts("outcome").astype(str), FAILED)
+            self._known["failed"] = self.ok & np.asarray(pd.Series(self.texts("outcome")).isin(FAILED), dtype=bool)
         found: npt.NDArray[np.bool_] = self._known["failed"]
         return found
 

@@ -9,7 +9,7 @@ import pandas as pd
 
 from fddbench.metrics.clustered import PooledShare, korn_graubard
 from fddbench.metrics.paired import PairedShares, paired_shares
-from fddbench.reporting.page.columns import FAILED, Columns
+from fddbench.reporting.page.columns import Columns
 
 __all__ = ["Rank", "Weakest", "beside_best", "ranking"]
 
@@ -76,16 +76,16 @@ def ranking(
     for number, name in enumerate(columns.detectors):
         places = columns.of(number)
         own = places[columns.ok[places] & columns.faulty[places]]
-        outcome = columns.texts("outcome")[own].astype(str)
-        sure = outcome != "undecided"
-        names, counts = np.unique(outcome, return_counts=True)
+        outcome = columns.texts("outcome")[own]
+        sure = np.asarray(outcome != "undecided", dtype=bool)
+        counts = pd.Series(outcome).value_counts()
         line = of.get(name, {})
         high = line.get("alarms_high_percent")
         lines.append(
             Rank(
                 detector=name, number=number, faulty=len(own), decided=int(sure.sum()), undecided=int((~sure).sum()),
                 right=korn_graubard(outcome[sure] == "right", columns.whole("run", own[sure])),
-                outcomes=dict(zip(names.tolist(), counts.tolist(), strict=True)),
+                outcomes={str(each): int(n) for each, n in counts.items()},
                 distinct_flights=int(line.get("distinct_flights", 0)), alarms=int(line.get("alarms", 0)),
                 alarms_high_percent=None if high is None or pd.isna(high) else float(high),
                 weakest=_weakest(columns, own), in_sample=name in in_sample, voted=name in voted,
@@ -102,11 +102,10 @@ def _order(line: Rank) -> tuple[bool, float, float, float, int]:
 
 def _weakest(columns: Columns, own: "np.ndarray[Any, Any]") -> Weakest | None:
     """Of scenarios with equal shares that with most failures, then the first."""
-    outcome = columns.texts("outcome")[own].astype(str)
-    sure = outcome != "undecided"
+    sure = columns.decided[own]
     scenario, n = columns.scenario[own][sure], len(columns.scenarios)
     decided = np.bincount(scenario, minlength=n)
-    failed = np.bincount(scenario[np.isin(outcome[sure], FAILED)], minlength=n)
+    failed = np.bincount(scenario[columns.failed[own][sure]], minlength=n)
     if not failed.any():
         return None
     share = np.where(decided > 0, failed / np.maximum(decided, 1), -1.0)
