@@ -10,6 +10,7 @@ from tests.benchmarks.recorded import logging, ulog
 import fddbench
 from fddbench.api import campaigns
 from fddbench.api.checking import described
+from fddbench.api.starting import start
 from fddbench.campaign.load import read_campaign
 from fddbench.errors import CampaignError
 from fddbench.runner.assembling import assemble
@@ -196,3 +197,13 @@ def test_too_many_numbers_fly_in_python_with_the_same_bits(folder, monkeypatch):
     assembly = assemble(read_campaign(path))
     assert not Flyer(assembly).compiled
     pd.testing.assert_frame_equal(logging.rows_of(path)[0], before)
+
+
+def test_what_init_writes_flies_and_has_a_page(tmp_path):
+    written = start(tmp_path, "benchmark", "recorded")
+    assert written[-1] == tmp_path / "campaigns/logged.yaml"
+    out = tmp_path / "out"
+    campaigns.run(read_campaign(written[-1]), out)
+    page = fddbench.report(out).read_text(encoding="utf-8")
+    assert "logs.2 jam" in page
+    assert set(fddbench.load(out)["status"]) == {"ok"}
