@@ -1,6 +1,6 @@
 """Chunks on a dask cluster, through joblib's backend for it with one thing put right."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
@@ -12,8 +12,8 @@ _PATIENCE_S = 10
 
 
 @contextmanager
-def dask_backend(jobs: int, address: str | None) -> Iterator[Callable[[], Any]]:
-    """What makes a `joblib.Parallel` on a dask cluster: the one at an address, or one of this machine.
+def dask_backend(jobs: int, address: str | None) -> Iterator[Callable[[Iterable[Any]], Iterator[Any]]]:
+    """What flies tasks on a dask cluster: the one at an address, or one of this machine.
 
     Raises
     ------
@@ -28,7 +28,7 @@ def dask_backend(jobs: int, address: str | None) -> Iterator[Callable[[], Any]]:
         try:
             with parallel_config(backend=backend):
                 backend.effective_n_jobs(-1)
-                yield lambda: Parallel(n_jobs=-1, return_as="generator_unordered", batch_size=1)
+                yield lambda tasks: Parallel(n_jobs=-1, return_as="generator_unordered", batch_size=1)(tasks)
         except TimeoutError as error:
             raise FddbenchError(
                 f"the dask scheduler at {address} has no worker after {_PATIENCE_S} s: start some, dask worker {address}"

@@ -4,7 +4,7 @@ import ctypes
 import os
 import signal
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib.util import find_spec
@@ -83,8 +83,8 @@ class Engine:
 
 
 @contextmanager
-def pool_of(engine: Engine, *, threads: bool) -> Iterator[Callable[[], Any]]:
-    """What makes a `joblib.Parallel` of the engine that gives results back as they finish.
+def pool_of(engine: Engine, *, threads: bool) -> Iterator[Callable[[Iterable[Any]], Iterator[Any]]]:
+    """What flies tasks of joblib and gives their results back as they finish.
 
     Raises
     ------
@@ -100,7 +100,7 @@ def pool_of(engine: Engine, *, threads: bool) -> Iterator[Callable[[], Any]]:
             from fddbench.runner.ray_engine import ray_backend as backend_of
         else:
             options = {"backend": "threading"} if threads else {"backend": "loky", "initializer": _begin_worker}
-            yield lambda: Parallel(n_jobs=engine.jobs, return_as="generator_unordered", **options)
+            yield Parallel(n_jobs=engine.jobs, return_as="generator_unordered", **options)
             return
         with backend_of(engine.jobs, engine.address) as made:
             yield made

@@ -1,6 +1,6 @@
 """The joblib pool: chunks out as plain data, shards back as they finish, nothing lost when a worker dies."""
 
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,7 @@ from fddbench.runner.work import Work, fly_and_write
 __all__ = ["fly_all"]
 
 _ATTEMPTS = 3
-Pool = Callable[[], Any]
+Pool = Callable[[Iterable[Any]], Iterator[Any]]
 
 
 def fly_all(work: Work, chunks: Sequence[Spans], *, engine: Engine, threads: bool) -> Generator[Shard, None, None]:
@@ -51,7 +51,7 @@ def _once(work: Work, chunks: Sequence[Spans], engine: Engine, pool: Pool) -> It
     from joblib import delayed
 
     if not engine.elsewhere:
-        yield from pool()(delayed(fly_and_write)(work, chunk) for chunk in chunks)
+        yield from pool(delayed(fly_and_write)(work, chunk) for chunk in chunks)
         return
     with errand(work) as own:
         unseen: list[Spans] = []
@@ -73,7 +73,7 @@ def _elsewhere(
     from joblib import delayed
 
     try:
-        for answer in pool()(delayed(fly_anywhere)(own, chunk) for chunk in chunks):
+        for answer in pool(delayed(fly_anywhere)(own, chunk) for chunk in chunks):
             if isinstance(answer, FddbenchError):
                 raise answer
             if isinstance(answer, Unseen):

@@ -1,17 +1,21 @@
 """Chunks on a ray cluster, through ray's own hook for joblib."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from itertools import islice
 from typing import Any
 
 from fddbench.errors import FddbenchError, reason_of
 
 __all__ = ["ray_backend"]
 
+_SLICE = 4
+"""Tasks a worker that are given out at once."""
+
 
 @contextmanager
-def ray_backend(jobs: int, address: str | None) -> Iterator[Callable[[], Any]]:
-    """What makes a `joblib.Parallel` on a ray cluster: the one at an address, or one of this machine.
+def ray_backend(jobs: int, address: str | None) -> Iterator[Callable[[Iterable[Any]], Iterator[Any]]]:
+    """What flies tasks on a ray cluster: the one at an address, or one of this machine.
 
     Raises
     ------
@@ -32,6 +36,13 @@ def ray_backend(jobs: int, address: str | None) -> Iterator[Callable[[], Any]]:
     try:
         register_ray()
         with parallel_config("ray"):
-            yield lambda: Parallel(n_jobs=jobs, return_as="generator_unordered", batch_size=1)
+            yield lambda tasks: _in_slices(tasks, Parallel(n_jobs=jobs, batch_size=1), _SLICE * jobs)
     finally:
         ray.shutdown()
+
+
+def _in_slices(tasks: Iterable[Any], pool: Any, size: int) -> Iterator[Any]:
+    """Results of slices of tasks: the backend gives them back when all are there, and a failure loses those of one slice."""
+    left = iter(tasks)
+    while some := list(islice(left, size)):
+        yield from pool(some)

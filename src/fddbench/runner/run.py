@@ -110,7 +110,7 @@ def run_campaign(
     Raises
     ------
     FddbenchError
-        No detector, or one whose rows depend on more than their flight; another campaign's folder, or one that is being written.
+        No detector, or one whose rows depend on its company; another campaign's folder, or one that is being written.
     """
     begun, own = time.monotonic(), engine or Engine(jobs=jobs)
     flyer = Flyer(assemble(campaign), backend)
