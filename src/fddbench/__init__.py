@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from fddbench.api.curves import operating_curve
     from fddbench.api.designs import tune
     from fddbench.api.detection_curves import pod
+    from fddbench.api.exporting import export
     from fddbench.api.findings import finding
     from fddbench.api.flights import score, signals
     from fddbench.api.pages import report
@@ -34,6 +35,7 @@ __all__ = [
     "columns",
     "compare",
     "detectable",
+    "export",
     "finding",
     "load",
     "load_events",
@@ -65,6 +67,7 @@ _ROOMS = {
     **dict.fromkeys(("reconstruction_picture", "tradeoff_picture"), "pictures"),
     "compare": "comparing",
     "bounds": "bounds",
+    "export": "exporting",
     "finding": "findings",
     "pod": "detection_curves",
     "schema": "schemas",

@@ -7,7 +7,7 @@ from pathlib import Path
 from textwrap import fill
 
 from fddbench import __version__
-from fddbench.cli import aircraft, commands, completing, counting, designing, looking
+from fddbench.cli import aircraft, commands, completing, counting, designing, exporting, looking
 from fddbench.cli.checked_numbers import flights as _flights
 from fddbench.cli.checked_numbers import jobs as _jobs
 from fddbench.cli.checked_numbers import probability as _probability
@@ -61,6 +61,7 @@ def parser() -> argparse.ArgumentParser:
         help="campaign whose benchmark and sample time count (default: the first shipped one that feeds it)",
     )  # fmt: skip
 
+    exporting.arguments(_add(subs, "export", exporting.export))
     _bound(_add(subs, "bound", commands.bound))
 
     check = _add(subs, "check", commands.check)

@@ -10,7 +10,6 @@ from fddbench.errors import FddbenchError
 if TYPE_CHECKING:
     import pandas as pd
 
-    from fddbench.runner.assembly import Assembly
 
 __all__ = ["bound", "check", "cost", "finding", "init", "list_", "report", "run", "schema", "scores"]
 
@@ -178,45 +177,15 @@ def cost(args: argparse.Namespace) -> int:
     code on this machine.
     """
     from fddbench.runner.load import detector_load, in_words
+    from fddbench.runner.single import assembly_with
 
-    assembly = _assembly_with(args.detector, args.campaign)
+    assembly = assembly_with(args.detector, args.campaign)
     load = detector_load(assembly.detectors[args.detector], assembly.loop.bus)
     print(f"{args.detector}, at {assembly.loop.bus.sample_s} s: {in_words(load)}")
     if load.cost is not None:
         for name, number in load.cost.operations.items():
             print(f"  {name:<12}{number:>6}")
     return 0
-
-
-def _assembly_with(detector: str, campaign: Path | None) -> "Assembly":
-    """Assembly of a campaign with a design, or with a variant of one that the campaign sweeps."""
-    from dataclasses import replace
-
-    from fddbench.campaign.load import read_campaign
-    from fddbench.runner.assembling import assemble
-
-    own = read_campaign(campaign) if campaign else None
-    swept = [design for design in own.designs if design.name == detector and design.swept] if own else []
-    if own is None or not swept:
-        return _one_detector(detector, campaign)
-    return assemble(replace(own, designs=tuple(swept), reconfigure=""))
-
-
-def _one_detector(design: str, campaign: Path | None) -> "Assembly":
-    """Assembly of a campaign with one detector; without a campaign the first shipped one whose benchmark feeds it."""
-    from fddbench import gallery
-    from fddbench.campaign.load import read_campaign
-    from fddbench.runner.assembling import assemble
-
-    shipped = [Path("smoke"), *(Path(path.stem) for path in sorted(gallery.folder("campaigns").glob("*.yaml")))]
-    first: FddbenchError | None = None
-    for path in [campaign] if campaign else shipped:
-        try:
-            return assemble(read_campaign(path, [f"detectors=[{design}]"]))
-        except FddbenchError as error:
-            first = first or error
-    assert first is not None
-    raise first
 
 
 def check(args: argparse.Namespace) -> int:
