@@ -22,6 +22,7 @@ def judged(
     rows: pd.DataFrame,
     planned: Mapping[str, PlannedFlights],
     *,
+    detector: str,
     by: str = "",
     in_sample: bool = False,
 ) -> Iterator[Judgement]:
@@ -33,7 +34,7 @@ def judged(
     Parameters
     ----------
     rows : DataFrame
-        Columns `fddbench.metrics.requirements.NEEDS` and `by` of one detector, at least a row.
+        Columns `fddbench.metrics.requirements.NEEDS` and `by` of the detector.
     planned : mapping of str to PlannedFlights
         By name of the scenario.
     by : str
@@ -49,7 +50,7 @@ def judged(
         yield _judgement(
             required,
             evidence,
-            who=(str(rows["detector"].iloc[0]), group, at, in_sample),
+            who=(detector, group, at, in_sample),
             runs=(used, min(each.runs for each in own.values())),
             flights=(len(part) // max(used, 1), int(_failed(part).sum())),
         )

@@ -15,7 +15,11 @@ correlation rho (``python -m tests.bench.requirements``; 10,000 campaigns a line
 
 from dataclasses import dataclass
 
-__all__ = ["AT_LEAST", "MEASURES", "NEEDS", "OF_FAULTS", "Judgement", "PlannedFlights", "Requirement"]
+import pyarrow as pa
+
+from fddbench.metrics.shares import column
+
+__all__ = ["AT_LEAST", "JUDGEMENTS", "MEASURES", "NEEDS", "OF_FAULTS", "Judgement", "PlannedFlights", "Requirement"]
 
 MEASURES = {
     "right_share": "right of the decided flights",
@@ -146,3 +150,31 @@ class Judgement:
     flights_needed: int | None
     failed: int
     in_sample: bool = False
+
+
+JUDGEMENTS = pa.schema(
+    [
+        column("name", pa.string(), "name of the requirement"),
+        column("detector", pa.string(), "name of the design that it is on"),
+        column("of", pa.string(), "what is required"),
+        column("group", pa.string(), "part of the flights that is judged by itself; empty: all"),
+        column("scenarios", pa.string(), "scenarios that count, joined by commas"),
+        column("verdict", pa.string(), "pass, fail or undecided; it holds at any look"),
+        column("value", pa.float64(), "share [-] or rate [1/h] over the runs used; null: no flight counts"),
+        column("low", pa.float64(), "lower end of its interval, at any look, at the confidence by itself"),
+        column("high", pa.float64(), "upper end; infinity: none"),
+        column("at_least", pa.bool_(), "the value must be at least the limit, else at most"),
+        column("limit", pa.float64(), "least share, or largest share or rate [1/h]"),
+        column(
+            "within", pa.float64(), "time over its limit that the share of the flights must keep [-]; null: no time"
+        ),
+        column("confidence", pa.float64(), "one less the probability of a false pass, and of a false fail"),
+        column("runs_used", pa.int64(), "first runs of the campaign that are whole: what is judged"),
+        column("runs_planned", pa.int64(), "runs of the campaign"),
+        column("decided_at", pa.int64(), "runs after which it was decided; null: not yet"),
+        column("runs_needed", pa.int64(), "runs that a decision would take besides at the present rate; null: never"),
+        column("flights_needed", pa.int64(), "flights of them"),
+        column("failed", pa.int64(), "flights that failed; they count against either verdict"),
+        column("in_sample", pa.bool_(), "the design was tuned on flights of this campaign and seed"),
+    ]
+)

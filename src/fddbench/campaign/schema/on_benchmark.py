@@ -14,6 +14,7 @@ from fddbench.campaign.rules.model import (
     MonteCarlo,
     Normal,
     ReportEntry,
+    RequirementEntry,
     ScenarioEntry,
     TruncatedNormal,
     campaign_file,
@@ -28,7 +29,8 @@ from fddbench.interfaces import Benchmark, Choice
 __all__ = ["benchmark_schema", "written_schema"]
 
 _MODELS = (
-    Dispersions, Distribution, MonteCarlo, Normal, TruncatedNormal, ReportEntry, ScenarioEntry, Sweep, SweptDesign,
+    Dispersions, Distribution, MonteCarlo, Normal, TruncatedNormal, ReportEntry, RequirementEntry, ScenarioEntry, Sweep,
+    SweptDesign,
 )  # fmt: skip
 _DATA_FILE = r"\.ya?ml$"
 
