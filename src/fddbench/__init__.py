@@ -15,8 +15,10 @@ if TYPE_CHECKING:
     from fddbench.api.designs import tune
     from fddbench.api.detection_curves import pod
     from fddbench.api.exporting import export
+    from fddbench.api.extending import extend
     from fddbench.api.findings import finding
     from fddbench.api.flights import score, signals
+    from fddbench.api.merging import merge
     from fddbench.api.pages import report
     from fddbench.api.pictures import reconstruction_picture, tradeoff_picture
     from fddbench.api.replaying import table_of
@@ -36,9 +38,11 @@ __all__ = [
     "compare",
     "detectable",
     "export",
+    "extend",
     "finding",
     "load",
     "load_events",
+    "merge",
     "operating_curve",
     "plan",
     "pod",
@@ -67,6 +71,8 @@ _ROOMS = {
     **dict.fromkeys(("reconstruction_picture", "tradeoff_picture"), "pictures"),
     "compare": "comparing",
     "bounds": "bounds",
+    "extend": "extending",
+    "merge": "merging",
     "export": "exporting",
     "finding": "findings",
     "pod": "detection_curves",

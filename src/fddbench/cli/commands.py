@@ -10,8 +10,9 @@ from fddbench.errors import FddbenchError
 if TYPE_CHECKING:
     import pandas as pd
 
+    from fddbench.runner.run import RunReport
 
-__all__ = ["bound", "check", "cost", "finding", "init", "list_", "report", "run", "schema", "scores"]
+__all__ = ["bound", "check", "cost", "finding", "init", "list_", "report", "run", "schema", "scores", "told"]
 
 
 _INTERRUPTED = 130
@@ -63,6 +64,11 @@ def _run(path: Path, args: argparse.Namespace) -> int:
             notice=lambda text: print(f"fddbench: {text}", file=sys.stderr),
             summarised=lambda *tables: kept.append(tables),
         )
+    return told(report, kept, wide=args.wide)
+
+
+def told(report: "RunReport", kept: "list[tuple[pd.DataFrame, pd.DataFrame]]", *, wide: bool) -> int:
+    """Print how a run ended and its tables; exit code of the command."""
     folder = report.folder
     if report.interrupted:
         done = report.continued + report.flights
@@ -72,7 +78,7 @@ def _run(path: Path, args: argparse.Namespace) -> int:
             file=sys.stderr,
         )
         return _INTERRUPTED
-    _summary(folder, kept[0], wide=args.wide, failed=report.failed_rows > 0)
+    _summary(folder, kept[0], wide=wide, failed=report.failed_rows > 0)
     again = f", {report.continued} found done" if report.continued else ""
     print(f"\n{report.flights} flights flown{again} in {report.wall_s:.1f} s; results in {folder}")
     print(f"next: fddbench report {folder}")

@@ -34,9 +34,11 @@ def write_bytes(path: Path, data: bytes) -> None:
             file.flush()
             os.fsync(file.fileno())
         aside.replace(path)
-    except BaseException:  # a full disk, Ctrl-C: nothing half written stays
+    except BaseException as error:  # a full disk, Ctrl-C: nothing half written stays
         with suppress(OSError):
             aside.unlink(missing_ok=True)
+        if isinstance(error, OSError) and error.filename is None:
+            error.filename = str(path)
         raise
     is_durable(path.parent)
 

@@ -1,9 +1,12 @@
 """Reads the tables of a folder of results, by its manifest."""
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+import numpy.typing as npt
 import pandas as pd
 import pyarrow as pa
 import pyarrow.compute as pc
@@ -13,9 +16,10 @@ from fddbench.results.folder import provenance_of
 from fddbench.results.manifest import shards
 from fddbench.results.schema import CASE, EVENTS, rows_schema
 from fddbench.results.shards import open_table, read_columns
+from fddbench.results.stages import Numbering
 from fddbench.results.whole import holdings
 
-__all__ = ["load", "load_events", "named", "read_events", "read_in_parts", "read_rows"]
+__all__ = ["as_of_today", "load", "load_events", "named", "read_events", "read_in_parts", "read_rows"]
 
 _MANY = 50_000  # rows: about 10 MB of what a summary needs
 _ADDRESS = ("scenario", "point", "level", "run")
@@ -154,14 +158,18 @@ def _read(folder: Path, which: str, wanted: Sequence[str] | None, detector: str 
         As `load`, and there are no rows yet.
     """
     schema = {"rows": rows_schema(()), "events": EVENTS}[which]
-    tables, first = [], None
+    provenance = provenance_of(folder)
+    numbering, all_names = Numbering(provenance), provenance.get("columns") if which == "rows" else None
+    tables = []
     for path, sha256, fingerprint in _files(folder, which):
         file = open_table(path, sha256, schema=schema, fingerprint=fingerprint)
-        first = first or file.schema_arrow
-        if set(file.schema_arrow.names) != set(first.names):
+        all_names = all_names or file.schema_arrow.names
+        own = set(file.schema_arrow.names)
+        if own - set(all_names) or (own != set(all_names) and "columns" not in provenance):
             raise _different(folder)
-        names = first.names if wanted is None else [*dict.fromkeys((*wanted, *_keys_in(first)))]
-        table = read_columns(path, file, names).replace_schema_metadata(None)
+        names = all_names if wanted is None else [*dict.fromkeys((*wanted, *_keys_in(all_names)))]
+        table = read_columns(path, file, [name for name in names if name in own or name not in all_names])
+        table = as_of_today(table.replace_schema_metadata(None), names, numbering.points_of(fingerprint))
         tables.append(table if detector is None else table.filter(pc.equal(table["detector"], detector)))
     if not tables and which == "rows":
         raise ResultsError(f"{folder} holds no rows yet; run the campaign first")
@@ -171,8 +179,20 @@ def _read(folder: Path, which: str, wanted: Sequence[str] | None, detector: str 
         raise _different(folder) from error
 
 
-def _keys_in(schema: pa.Schema) -> list[str]:
-    return [name for name in _KEYS if name in schema.names]
+def as_of_today(table: pa.Table, names: Sequence[str], points: npt.NDArray[np.int64] | None) -> pa.Table:
+    """A shard's table as the campaign of today numbers it: its points, and null for what only later flights vary."""
+    if points is not None:
+        place = table.schema.get_field_index("point")
+        table = table.set_column(place, table.schema.field(place), pa.array(points[table["point"].to_numpy()]))
+    for name in names:
+        if name not in table.column_names:
+            known = rows_schema((), [name]) if re.match(r"f\d+_", name) else rows_schema((), (), [name])
+            table = table.append_column(known.field(name), pa.nulls(len(table), pa.float64()))
+    return table.select(list(names))
+
+
+def _keys_in(names: Sequence[str]) -> list[str]:
+    return [name for name in _KEYS if name in names]
 
 
 def _different(folder: Path) -> ResultsError:

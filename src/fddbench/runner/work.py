@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from threading import Lock
@@ -18,7 +19,7 @@ from fddbench.metrics.scoring import Scoring
 from fddbench.results.manifest import Shard
 from fddbench.results.schema import EVENTS, rows_schema
 from fddbench.results.shards import write_table
-from fddbench.runner.assembling import assemble
+from fddbench.runner.assembling import assemble, with_detectors
 from fddbench.runner.assembly import Assembly, Batch, has_events
 from fddbench.runner.beside import beside
 from fddbench.runner.chunks import Spans, expand, spans
@@ -26,49 +27,76 @@ from fddbench.runner.fingerprint import frozen_to_fly
 from fddbench.runner.flight import Flyer, Outcome
 from fddbench.runner.given_up import GivenUps
 
-__all__ = ["fly_and_write", "flyer_of", "lent", "rows_and_events", "rows_of"]
+__all__ = ["Work", "fly_and_write", "flyer_of", "lent", "rows_and_events", "rows_of", "schemas_of"]
 
 Columns = dict[str, pa.Array]
 Cases = npt.NDArray[np.int64]
 
 _SHARED = ("scenario", "point", "level", "run", "detector", "status", "reason")
 _making = Lock()
-_lent: dict[tuple[str, str, str, GivenUps], Flyer] = {}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Work:
+    """What a worker is given beside its cases; it crosses as plain data.
+
+    Attributes
+    ----------
+    folder, fingerprint, backend : str
+        Folder of results, the fingerprint of what flies, and the back end.
+    given_up : tuple
+        Detectors that are given up.
+    detectors : tuple of str
+        Those that rows are written of; empty: all of the campaign.
+    label : str
+        Digits in the names of its shards, "" in a folder that never grew.
+    """
+
+    folder: str
+    fingerprint: str
+    backend: str
+    given_up: GivenUps = ()
+    detectors: tuple[str, ...] = ()
+    label: str = ""
+
+
+_lent: dict[Work, Flyer] = {}
 
 
 @contextmanager
-def lent(flyer: Flyer, folder: str, fingerprint: str, backend: str, given_up: GivenUps = ()) -> Iterator[None]:
+def lent(flyer: Flyer, work: Work) -> Iterator[None]:
     """Fly a frozen campaign in the threads of this process with what flies it already, compiled now; forgotten afterwards."""
     flyer.prepare()
-    _lent[folder, fingerprint, backend, given_up] = flyer
+    _lent[work] = flyer
     try:
         yield
     finally:
-        del _lent[folder, fingerprint, backend, given_up]
+        del _lent[work]
 
 
-def flyer_of(folder: str, fingerprint: str, backend: str, given_up: GivenUps = ()) -> Flyer:
+def flyer_of(work: Work) -> Flyer:
     """What flies a frozen campaign, lent or made and compiled once per process."""
-    known = _lent.get((folder, fingerprint, backend, given_up))
+    known = _lent.get(work)
     if known is not None:
         return known
     with _making:
-        return _flyer(folder, fingerprint, backend, given_up)
+        return _flyer(work)
 
 
 @lru_cache(maxsize=2)
-def _flyer(folder: str, fingerprint: str, backend: str, given_up: GivenUps) -> Flyer:
-    flyer = Flyer(assemble(frozen_to_fly(Path(folder), fingerprint)), backend, dict(given_up))
+def _flyer(work: Work) -> Flyer:
+    campaign = with_detectors(frozen_to_fly(Path(work.folder), work.fingerprint), work.detectors)
+    flyer = Flyer(assemble(campaign), work.backend, dict(work.given_up))
     flyer.prepare()
     return flyer
 
 
-def fly_and_write(folder: str, fingerprint: str, backend: str, given_up: GivenUps, case_spans: Spans) -> Shard:
-    """Fly the cases and write their shard into the folder of results; everything crosses as plain data."""
-    cases = expand(case_spans)
-    rows, events = rows_and_events(flyer_of(folder, fingerprint, backend, given_up), cases)
-    name = f"{cases[0]:08d}-{cases[-1]:08d}-{len(cases)}.parquet"
-    path = Path(folder)
+def fly_and_write(work: Work, case_spans: Spans) -> Shard:
+    """Fly the cases and write their shard into the folder of results."""
+    cases, fingerprint = expand(case_spans), work.fingerprint
+    rows, events = rows_and_events(flyer_of(work), cases, work.detectors)
+    name = "-".join(filter(None, [f"{cases[0]:08d}-{cases[-1]:08d}-{len(cases)}", work.label])) + ".parquet"
+    path = Path(work.folder)
     events_sha256 = write_table(path / "events" / name, events, fingerprint=fingerprint) if len(events) else None
     return Shard(
         cases=spans(cases),
@@ -80,11 +108,12 @@ def fly_and_write(folder: str, fingerprint: str, backend: str, given_up: GivenUp
             sorted((entry["values"], entry["counts"]) for entry in rows["status"].value_counts().to_pylist())
         ),
         fingerprint=fingerprint,
+        detectors=work.detectors,
     )
 
 
-def rows_and_events(flyer: Flyer, cases: Cases) -> tuple[pa.Table, pa.Table]:
-    """Rows and events of cases, case by case and detector by detector."""
+def rows_and_events(flyer: Flyer, cases: Cases, only: Sequence[str] = ()) -> tuple[pa.Table, pa.Table]:
+    """Rows and events of cases, case by case and detector by detector, of all or of some."""
     assembly = flyer.assembly
     batch = assembly.batch(cases)
     able = np.array([reason == "" for reason in batch.infeasible_reason], dtype=bool)
@@ -96,7 +125,7 @@ def rows_and_events(flyer: Flyer, cases: Cases) -> tuple[pa.Table, pa.Table]:
     parts: list[pa.Table] = []
     events = [EVENTS.empty_table()]
     order: list[Cases] = []
-    for number, detector in enumerate(assembly.detectors):
+    for number, detector in enumerate(only or assembly.detectors):
         for mine, result in ((flown, outcome), (grounded, None)):
             if len(mine.cases):
                 columns = _columns(assembly, mine, result, detector)
@@ -117,6 +146,11 @@ def _schema(assembly: Assembly) -> pa.Schema:
         plan.gain_columns,
         assembly.consequences.announced,
     )
+
+
+def schemas_of(assembly: Assembly) -> tuple[pa.Schema, pa.Schema]:
+    """Schemas of the rows and of the events of a campaign."""
+    return _schema(assembly), EVENTS
 
 
 def rows_of(assembly: Assembly, batch: Batch, outcome: Outcome | None, detector: str) -> pa.Table:
