@@ -1,6 +1,6 @@
 """What a campaign requires of its detectors, judged by the flights of a folder of results."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
@@ -12,13 +12,16 @@ from fddbench.campaign.plan import Plan, PlannedScenario
 from fddbench.campaign.plan import plan as planned
 from fddbench.campaign.rules.model import RequirementEntry
 from fddbench.campaign.rules.required import chosen, name_of
+from fddbench.errors import FddbenchError
 from fddbench.metrics.judging import judged
 from fddbench.metrics.requirements import JUDGEMENTS, NEEDS, OF_FAULTS, Judgement, PlannedFlights, Requirement
+from fddbench.reporting.requirements import to_junit
 from fddbench.results.manifest import shards
+from fddbench.results.shards import write_bytes
 from fddbench.results.table import read_rows
 from fddbench.runner.fingerprint import frozen
 
-__all__ = ["judgements", "requirements"]
+__all__ = ["judgements", "requirements", "write_junit"]
 
 
 def requirements(folder: str | Path) -> pd.DataFrame:
@@ -71,6 +74,21 @@ def judgements(folder: str | Path, campaign: Campaign | None = None) -> list[Jud
     rows = read_rows(Path(folder), names) if there else pd.DataFrame(columns=names)
     by_detector = {str(name): part for name, part in rows.groupby("detector", sort=False)}
     return [one for entry in own.requirements for one in _of_entry(entry, own, case_table, by_detector)]
+
+
+def write_junit(found: Sequence[Judgement], campaign: str, path: Path) -> Path:
+    """Write judgements as JUnit XML; gives the file.
+
+    Raises
+    ------
+    FddbenchError
+        The file cannot be written there.
+    """
+    try:
+        write_bytes(path, to_junit(found, campaign))
+    except (FileExistsError, IsADirectoryError, NotADirectoryError, PermissionError) as error:
+        raise FddbenchError(f"cannot write {path}: {error.strerror}; name another file with --junit") from error
+    return path
 
 
 def _of_entry(

@@ -4,9 +4,9 @@ Number i of an aircraft is turned into a gain ``g_i >= -1`` whose expectation is
 hypothesis holds. Who stakes the share c of his capital on every one has ``K_n = prod (1 + c g_i)``, a nonnegative
 supermartingale of expectation at most 1, and so has the mean over several c, fixed beforehand (`bets`). By Ville's inequality
 ``max_n K_n`` ever reaches 1/a with probability at most a: a hypothesis that is refuted when it does is refuted falsely in at
-most a of the campaigns, however often one looks and whenever one stops. The mean over ten bets costs little against the best
-one, which nobody knows beforehand. Plug-in bets (aGRAPA) decide less here, 47 % instead of 73 % within 1500 aircraft at 99 %
-against 98 %, because a share near 1 shows its variance late; half of each 67 %.
+most a of the campaigns, however often one looks and whenever one stops. The mean over few bets costs little against the best
+one, which nobody knows beforehand: at 99 % against 98 % it decides 77 % of the campaigns within 1500 aircraft, the best one
+84 %, plug-in bets (aGRAPA) 47 %, because a share near 1 shows its variance late, and half of each 67 %.
 
 References
 ----------
@@ -30,16 +30,15 @@ _MOST = 1e9
 
 
 def bets(mean: float) -> Floats:
-    """Shares of the capital to stake, where the bounded number has this mean [0 to 1] on the boundary, (10,), each below 1.
+    """Shares of the capital to stake, where the bounded number has this mean [0 to 1] on the boundary, (n_bets,), each below 1.
 
-    For a yes or no of probability q the best share is ``(q - mean) / (1 - mean)``: evenly many for means near 1, where q can
-    only be a little larger, and from a quarter above the mean on for small ones.
+    For a yes or no of probability q the best share is ``(q - mean) / (1 - mean)``: four for means near 1, where q can only be
+    a little larger, and ten from a quarter above the mean on for small ones, where it can be much.
 
-    >>> bets(0.98).round(2).tolist()
-    [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.99]
+    >>> bets(0.98).tolist()
+    [0.2, 0.4, 0.6, 0.9]
     """
-    found: Floats = np.append(np.arange(1, 10) / 10.0, 0.99) if mean >= 0.5 else np.geomspace(0.25 * mean, 0.95, 10)
-    return found
+    return np.array([0.2, 0.4, 0.6, 0.9]) if mean >= 0.5 else np.geomspace(0.25 * mean, 0.95, 10)
 
 
 def log_capital(gains: Floats, staked: Floats) -> Floats:

@@ -42,10 +42,13 @@ def name_of(entry: RequirementEntry) -> str:
     """Name of a requirement: its own, or what it is of, how much and where."""
     if entry.name is not None:
         return entry.name
-    within = f" {entry.at_most:g} in {entry.share:g}" if entry.share is not None and entry.at_most is not None else ""
-    limit = f" at least {entry.at_least:g}" if entry.at_least is not None else f" at most {entry.at_most:g}"
-    where = f" of {', '.join(entry.scenarios)}" if entry.scenarios else ""
-    return f"{entry.of}{within or limit}{where}"
+    words: list[str] = [entry.of]
+    words += [f"at least {entry.at_least:g}"] if entry.at_least is not None else []
+    words += [f"at most {entry.at_most:g}"] if entry.at_most is not None else []
+    words += [f"in {entry.share:g}"] if entry.share is not None else []
+    words += [f"of {', '.join(entry.scenarios)}"] if entry.scenarios else []
+    words += [f"per {entry.per}"] if entry.per is not None else []
+    return " ".join(words)
 
 
 def _limits(document: Document, at: Address, entry: RequirementEntry) -> Iterator[Mistake]:
@@ -78,19 +81,19 @@ def _scenarios(
     yield from _matched(document, (*at, "scenarios"), entry.scenarios, tuple(faulty), "scenario")
     if entry.of not in OF_FAULTS:
         return
+    healthy = [number for number, name in enumerate(entry.scenarios) if faulty.get(name) is False]
     if not any(faulty.values()):
-        yield document.mistake(
-            (*at, "of"), f"{entry.of} counts flights with faults; no scenario of this campaign has any"
+        message = f"{entry.of} counts flights with faults; no scenario of this campaign has any"
+        yield document.mistake((*at, "of"), message)
+        return
+    for number in healthy:
+        message = (
+            f"{entry.of} counts flights with faults, and scenario {entry.scenarios[number]!r} has none; require "
+            "false_alarm_share or false_alarms_per_hour of it"
         )
-    elif not any(faulty[name] for name in chosen(entry.scenarios, tuple(faulty)) or faulty):
+        yield document.mistake((*at, "scenarios", number), message)
+    if not healthy and not any(faulty[name] for name in chosen(entry.scenarios, tuple(faulty)) or faulty):
         yield document.mistake((*at, "scenarios"), f"{entry.of} counts flights with faults; none of these has any")
-    for number, name in enumerate(entry.scenarios):
-        if faulty.get(name) is False:
-            message = (
-                f"{entry.of} counts flights with faults, and scenario {name!r} has none; require false_alarm_share or "
-                "false_alarms_per_hour of it"
-            )
-            yield document.mistake((*at, "scenarios", number), message)
 
 
 def _matched(
