@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from fddbench.api.campaigns import plan, read, run
     from fddbench.api.comparing import compare
     from fddbench.api.curves import operating_curve
+    from fddbench.api.datasets import dataset
     from fddbench.api.designs import tune
     from fddbench.api.detection_curves import pod
     from fddbench.api.exporting import export
@@ -36,6 +37,7 @@ __all__ = [
     "bounds",
     "columns",
     "compare",
+    "dataset",
     "detectable",
     "export",
     "extend",
@@ -72,6 +74,7 @@ _ROOMS = {
     **dict.fromkeys(("reconstruction_picture", "tradeoff_picture"), "pictures"),
     "compare": "comparing",
     "bounds": "bounds",
+    "dataset": "datasets",
     "extend": "extending",
     "merge": "merging",
     "export": "exporting",

@@ -62,7 +62,7 @@ def test_a_full_disk_ends_it_with_the_path_and_leaves_nothing_half_written(tmp_p
     limit = 40_000
     process = _begin(tmp_path, 3000, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
     said = process.communicate(timeout=120)[1]
-    assert process.returncode == 74
+    assert process.returncode == 74, said
     assert str(tmp_path / "out") in said
     assert "File too large" in said
     assert "Traceback" not in said

@@ -24,6 +24,13 @@ STARTERS: Mapping[str, Mapping[str, str]] = {
         "campaigns/NAME.yaml": "benchmark_campaign.yaml.txt",
     },
     "fault": {"campaigns/NAME.py": "fault.py.txt", "campaigns/NAME.yaml": "fault_campaign.yaml.txt"},
+    "trained": {
+        "detectors/NAME_features.py": "features.py.txt",
+        "detectors/train_NAME.py": "train.py.txt",
+        "detectors/NAME.py": "trained.py.txt",
+        "detectors/NAME.yaml": "trained.yaml.txt",
+        "campaigns/NAME.yaml": "trained_campaign.yaml.txt",
+    },
     "campaign": {"campaigns/NAME.yaml": "campaign.yaml.txt"},
 }
 """What is started → file to write → what it is made of; NAME stands for the name and CLASS for the name of its class."""
@@ -44,7 +51,7 @@ def start(folder: Path, what: str, name: str) -> list[Path]:
             f"{name!r} is no name for a {what}: small letters, digits and _, a letter first, at most 40, as in "
             f"my_{what}"
         )
-    if what == "detector" and (gallery.folder("detectors") / f"{name}.yaml").is_file():
+    if what in {"detector", "trained"} and (gallery.folder("detectors") / f"{name}.yaml").is_file():
         raise FddbenchError(
             f"a shipped design is called {name!r}; choose another name, so that nobody takes one for the other"
         )

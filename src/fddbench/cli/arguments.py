@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from fddbench import __version__
-from fddbench.cli import aircraft, commands, completing, counting, designing, exporting, looking, requiring
+from fddbench.cli import aircraft, commands, completing, counting, data_sets, designing, exporting, looking, requiring
 from fddbench.cli.added import add
 from fddbench.cli.checked_numbers import flights as _flights
 from fddbench.cli.checked_numbers import jobs as _jobs
@@ -26,7 +26,43 @@ def parser() -> argparse.ArgumentParser:
     top.add_argument("--version", action="version", version=f"fddbench {__version__}")
     subs = top.add_subparsers(metavar="COMMAND")
 
-    run = add(subs, "run", commands.run)
+    _running(add(subs, "run", commands.run))
+    _reading(subs)
+    looking_arguments(subs)
+    verify_arguments(add(subs, "verify", looking.verify))
+    growing_arguments(subs)
+
+    _counting(subs)
+    cost = add(subs, "cost", commands.cost)
+    cost.add_argument("detector", metavar="DETECTOR", help="name of a design")
+    cost.add_argument(
+        "--campaign",
+        type=Path, metavar="CAMPAIGN.yaml",
+        help="campaign whose benchmark and sample time count (default: the first shipped one that feeds it)",
+    )  # fmt: skip
+
+    exporting.arguments(add(subs, "export", exporting.export))
+    data = add(subs, "dataset", data_sets.dataset)
+    _campaign(data)
+    data_sets.dataset_arguments(data)
+    _bound(add(subs, "bound", commands.bound))
+
+    check = add(subs, "check", commands.check)
+    _campaign(check)
+
+    design = add(subs, "design", designing.design)
+    design.add_argument("design", type=Path, metavar="FILE", help="design file with a recipe")
+    design.add_argument("--output", type=Path, metavar="FILE", help="where to write the design (default: print it)")
+    design.add_argument("--force", action="store_true", help="replace the file when it exists")
+    _tune(add(subs, "tune", designing.tune))
+
+    _modes(add(subs, "modes", aircraft.modes))
+    _asking(subs)
+    completing.attach(top)
+    return top
+
+
+def _running(run: argparse.ArgumentParser) -> None:
     run.add_argument(
         "campaigns", type=Path, nargs="+", metavar="CAMPAIGN.yaml", help="campaign files, or names of shipped ones"
     )
@@ -45,37 +81,6 @@ def parser() -> argparse.ArgumentParser:
     run.add_argument("--quiet", action="store_true", help="no progress")
     run.add_argument("--wide", action="store_true", help="every column of the table, as wide as it is")
     requiring.arguments(run)
-
-    _reading(subs)
-    looking_arguments(subs)
-    verify_arguments(add(subs, "verify", looking.verify))
-    growing_arguments(subs)
-
-    _counting(subs)
-    cost = add(subs, "cost", commands.cost)
-    cost.add_argument("detector", metavar="DETECTOR", help="name of a design")
-    cost.add_argument(
-        "--campaign",
-        type=Path, metavar="CAMPAIGN.yaml",
-        help="campaign whose benchmark and sample time count (default: the first shipped one that feeds it)",
-    )  # fmt: skip
-
-    exporting.arguments(add(subs, "export", exporting.export))
-    _bound(add(subs, "bound", commands.bound))
-
-    check = add(subs, "check", commands.check)
-    _campaign(check)
-
-    design = add(subs, "design", designing.design)
-    design.add_argument("design", type=Path, metavar="FILE", help="design file with a recipe")
-    design.add_argument("--output", type=Path, metavar="FILE", help="where to write the design (default: print it)")
-    design.add_argument("--force", action="store_true", help="replace the file when it exists")
-    _tune(add(subs, "tune", designing.tune))
-
-    _modes(add(subs, "modes", aircraft.modes))
-    _asking(subs)
-    completing.attach(top)
-    return top
 
 
 def _reading(subs) -> None:  # type: ignore[no-untyped-def]
@@ -133,11 +138,14 @@ def _asking(subs) -> None:  # type: ignore[no-untyped-def]
     )  # fmt: skip
     init = add(subs, "init", commands.init)
     init.add_argument("folder", type=Path, nargs="?", default=Path(), metavar="DIR", help="where to (default: here)")
-    names = "[--detector NAME | --benchmark NAME |\n                     --fault NAME | --campaign NAME]"
+    names = (
+        "[--detector NAME | --trained NAME |\n                     --benchmark NAME | --fault NAME | --campaign NAME]"
+    )
     init.usage = f"fddbench init [-h] [DIR] {names}"  # argparse does not break a group
     one = init.add_mutually_exclusive_group()
-    for what in ("detector", "benchmark", "fault", "campaign"):
-        one.add_argument(f"--{what}", metavar="NAME", help=f"a small {what} of your own, and a campaign that flies it")
+    for what in ("detector", "trained", "benchmark", "fault", "campaign"):
+        said = "detector that is trained on labelled flights" if what == "trained" else f"{what} of your own"
+        one.add_argument(f"--{what}", metavar="NAME", help=f"a small {said}, and a campaign that flies it")
     schema = add(subs, "schema", commands.schema)
     schema.add_argument("subject", nargs="?", default="", metavar="BENCHMARK", help="name of a benchmark, or designs")
     schema.add_argument("--output", type=Path, metavar="FILE", help="file to write (default: print it)")

@@ -81,6 +81,8 @@ def told(
     junit: Path | None = None,
 ) -> int:
     """Print how a run ended, its tables and the verdicts on what its campaign requires; exit code of the command."""
+    from fddbench.results.folder import provenance_of
+
     folder = report.folder
     if report.interrupted:
         done = report.continued + report.flights
@@ -94,6 +96,8 @@ def told(
     passed = all_pass(folder, junit=junit, job=require)
     again = f", {report.continued} found done" if report.continued else ""
     print(f"\n{report.flights} flights flown{again} in {report.wall_s:.1f} s; results in {folder}")
+    logs: dict[str, str] = provenance_of(folder).get("logs", {})
+    print("".join(f"log {name}: {said}\n" for name, said in logs.items()), end="")
     print(f"next: fddbench report {folder}")
     return 1 if report.failed_rows or (require and not passed) else 0
 
@@ -231,7 +235,9 @@ def list_(args: argparse.Namespace) -> int:
 
 
 def init(args: argparse.Namespace) -> int:
-    """Write files to start from: a detector, benchmark, fault or campaign of your own, or copies of the shipped ones.
+    """Write files to start from: of your own or copies of the shipped ones.
+
+    A detector, one that is trained, a benchmark, a fault or a campaign.
 
     What is there already is left alone.
     """
@@ -242,7 +248,8 @@ def init(args: argparse.Namespace) -> int:
         if name is not None:
             written = start(args.folder, what, name)
             print(*written, sep="\n")
-            print(f"next: fddbench run {written[-1]}")
+            first = f"python {args.folder / 'detectors' / f'train_{name}.py'}, then " if what == "trained" else ""
+            print(f"next: {first}fddbench run {written[-1]}")
             return 0
     for path in copy_shipped(args.folder):
         print(path)

@@ -8,6 +8,7 @@ import errno
 import os
 import signal
 import sys
+import threading
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -107,4 +108,10 @@ def entry() -> None:
         answer(parser())
     # what is freed goes back to the system: a tenth less memory for tables of many rows
     os.environ.setdefault("ARROW_DEFAULT_MEMORY_POOL", "system")
-    sys.exit(main())
+    code = main()
+    if code and any(thread.daemon for thread in threading.enumerate()):
+        # threads that still fly would meet an interpreter that is taken down, and abort the process instead of this code
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(code)
+    sys.exit(code)

@@ -19,7 +19,16 @@ from fddbench.results.shards import open_table, read_columns
 from fddbench.results.stages import Numbering
 from fddbench.results.whole import holdings
 
-__all__ = ["as_of_today", "load", "load_events", "named", "read_events", "read_in_parts", "read_rows"]
+__all__ = [
+    "as_of_today",
+    "column_names",
+    "load",
+    "load_events",
+    "named",
+    "read_events",
+    "read_in_parts",
+    "read_rows",
+]
 
 _MANY = 50_000  # rows: about 10 MB of what a summary needs
 _ADDRESS = ("scenario", "point", "level", "run")
@@ -75,6 +84,17 @@ def read_rows(folder: Path, columns: Sequence[str] | None = None) -> pd.DataFram
         As `load`.
     """
     return _sorted(folder, "rows", columns)
+
+
+def column_names(folder: Path) -> list[str]:
+    """Names of the columns of the rows, ``case`` first; none where there is no shard."""
+    known = provenance_of(folder).get("columns")
+    if known:
+        return [CASE.name, *known]
+    for path, sha256, fingerprint in _files(folder, "rows"):
+        own = open_table(path, sha256, schema=rows_schema(()), fingerprint=fingerprint)
+        return [CASE.name, *own.schema_arrow.names]
+    return []
 
 
 def read_in_parts(folder: Path, columns: Sequence[str]) -> Iterator[pd.DataFrame]:

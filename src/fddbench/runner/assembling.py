@@ -70,7 +70,7 @@ def assemble(campaign: Campaign) -> Assembly:
     planned = plan(campaign)
     loop = loop_of(planned)
     require_able(campaign, loop)
-    n_faults = max((len(scenario.faults) for scenario in planned.scenarios), default=0)
+    n_faults = max((len(scenario.faults) for scenario in planned.scenarios), default=0) + planned.n_labelled
     units = [site.unit_name for site in loop.bus.sites]
     scoring = Scoring(loop.bus.names, n_faults, campaign.sample_s, units=units)
     consequences = Consequences(getattr(loop, "consequences", ()), loop.truth)

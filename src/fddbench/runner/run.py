@@ -120,6 +120,8 @@ def run_campaign(
         # workers of an earlier run may still be there, in the working folder of that time
         work = Work(folder=str(folder.absolute()), fingerprint=fingerprint.sha256, backend=backend)
         interrupted = any(_fly_part(flyer, work, part, jobs=jobs, chunk=chunk, told=told) for part in parts)
+        if interrupted:  # perhaps between the listing of a shard and its count
+            told.flown = plan.n_cases - sum(len(part.cases) for part in _left(folder, None, say)[0]) - told.before
     return RunReport(
         folder=folder,
         flights=told.flown,
