@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from fddbench.api.campaigns import plan, read, run
     from fddbench.api.comparing import compare
     from fddbench.api.curves import operating_curve
+    from fddbench.api.databases import duckdb
     from fddbench.api.datasets import dataset
     from fddbench.api.designs import tune
     from fddbench.api.detection_curves import pod
@@ -39,6 +40,7 @@ __all__ = [
     "compare",
     "dataset",
     "detectable",
+    "duckdb",
     "export",
     "extend",
     "finding",
@@ -75,6 +77,7 @@ _ROOMS = {
     "compare": "comparing",
     "bounds": "bounds",
     "dataset": "datasets",
+    "duckdb": "databases",
     "extend": "extending",
     "merge": "merging",
     "export": "exporting",

@@ -237,7 +237,7 @@ def list_(args: argparse.Namespace) -> int:
 def init(args: argparse.Namespace) -> int:
     """Write files to start from: of your own or copies of the shipped ones.
 
-    A detector, one that is trained, a benchmark, a fault or a campaign.
+    A detector, one that is trained, a benchmark, a fault or a campaign. `--benchmark recorded` writes logs and what maps them.
 
     What is there already is left alone.
     """
