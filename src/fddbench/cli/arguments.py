@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from fddbench import __version__
-from fddbench.cli import aircraft, commands, completing, counting, data_sets, designing, exporting, looking
+from fddbench.cli import aircraft, commands, completing, counting, data_sets, designing, exporting, looking, requiring
 from fddbench.cli.added import add
 from fddbench.cli.checked_numbers import flights as _flights
 from fddbench.cli.checked_numbers import probability as _probability
@@ -20,8 +20,8 @@ def parser() -> argparse.ArgumentParser:
     top = argparse.ArgumentParser(
         prog="fddbench",
         description="Monte-Carlo benchmark campaigns for aerospace fault detection and diagnosis.",
-        epilog="Exit codes: 0 done, 1 done but some cases failed, 2 a mistake in what you wrote, 74 a disk that is full or "
-        "fails, 130 interrupted (Ctrl-C), 143 ended from outside (SIGTERM).",
+        epilog="Exit codes: 0 done, 1 done but some cases failed or a requirement is not met, 2 a mistake in what you wrote, "
+        "74 a disk that is full or fails, 130 interrupted (Ctrl-C), 143 ended from outside (SIGTERM).",
     )
     top.add_argument("--version", action="version", version=f"fddbench {__version__}")
     subs = top.add_subparsers(metavar="COMMAND")
@@ -29,6 +29,7 @@ def parser() -> argparse.ArgumentParser:
     run = add(subs, "run", commands.run)
     run_arguments(run)
     _set(run)
+    requiring.arguments(run)
 
     _reading(subs)
     looking_arguments(subs)

@@ -11,15 +11,10 @@ from fddbench.results.manifest import survey
 
 __all__ = ["RESERVED", "clear", "refuse_foreign", "sweep"]
 
+_JUDGED = "requirements.junit.xml"
 _FIXED = (
-    "campaign.yaml",
-    "manifest.jsonl",
-    "report.html",
-    "summary.parquet",
-    "provenance.json",
-    ".lock",
-    ".pid",
-    ".token",
+    *("campaign.yaml", "manifest.jsonl", "report.html", "summary.parquet", _JUDGED),
+    *("provenance.json", ".lock", ".pid", ".token"),
 )
 RESERVED = frozenset({*_FIXED, "rows", "events"})
 """Names in a folder of results that no file beside a campaign can have when it travels there."""
@@ -100,6 +95,7 @@ def clear(folder: Path, carried: Collection[str]) -> None:
         "campaign.yaml",
         "report.html",
         "summary.parquet",
+        _JUDGED,
     ):
         path = folder / name
         if path.is_dir() and not path.is_symlink():

@@ -10,6 +10,7 @@ from pathlib import Path
 from fddbench.campaign.meaning import Campaign
 from fddbench.errors import ResultsWarning, warn
 from fddbench.results import manifest
+from fddbench.results.compacting import ENOUGH, compact
 from fddbench.results.folder import claim, refuse_foreign
 from fddbench.results.lock import locked
 from fddbench.results.schema import FAILED
@@ -100,10 +101,8 @@ def run_campaign(
         Replace what the folder holds.
     backend : {"auto", "llvm", "numpy"}
         ``auto`` compiles where llvmlite is installed; no part of any result.
-    wanted : array of bool, optional
-        Fly these rows only, (n_detectors, n_cases); see `fddbench.runner.selection`.
-    retry_failed : bool
-        Fly shards again that have rows of which nothing was scored, infeasible ones aside.
+    wanted, retry_failed : array of bool, optional, and bool
+        Fly these rows only, (n_detectors, n_cases), see `fddbench.campaign.selection`; fly shards again that have failed rows.
     progress, notice : callable
         Told at the beginning and after every chunk; told what slows the run down, and what was damaged and is flown again.
 
@@ -129,6 +128,8 @@ def run_campaign(
         interrupted = any(_fly_part(flyer, work, part, engine=own, chunk=chunk, told=told) for part in left.parts)
         if interrupted:  # perhaps between the listing of a shard and its count
             told.flown = told.total - left_in(folder, say, wanted=wanted).n_left - told.before
+        else:
+            _few_files(folder, fingerprint.sha256, say)
     return _report(folder, told, interrupted=interrupted, wall_s=time.monotonic() - begun)
 
 
@@ -142,6 +143,14 @@ def _report(folder: Path, told: "_Told", *, interrupted: bool, wall_s: float) ->
         interrupted=interrupted,
         wall_s=wall_s,
     )
+
+
+def _few_files(folder: Path, fingerprint: str, say: Callable[[str], None]) -> None:
+    """Join the many small shards of a large campaign; a disk that has no room for it is no failure of the run."""
+    try:
+        compact(folder, only=fingerprint, least=ENOUGH)
+    except OSError as error:
+        say(f"{folder}: its shards stay as small as they are ({error.strerror}); join them with `fddbench compact`")
 
 
 def _fly_part(flyer: Flyer, work: Work, part: Part, *, engine: Engine, chunk: int | None, told: "_Told") -> bool:
