@@ -1,6 +1,7 @@
 """Gathers from a folder of results what its page shows; the signals are flown again from the frozen campaign."""
 
 from collections.abc import Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ from fddbench.api.bounds import bounds_of
 from fddbench.api.curves import operating_of
 from fddbench.api.detectability import detectable_of
 from fddbench.api.findings import swept_columns
+from fddbench.api.requiring import judgements
 from fddbench.campaign.meaning import Campaign
 from fddbench.reporting.bands import names_in
 from fddbench.reporting.page.columns import NEEDS
@@ -85,6 +87,7 @@ def report_data(folder: Path, *, replay: bool = True) -> ReportData:
         detectable=detectable_of(rows, campaign),
         consequences=assembly.consequences.announced,
         swept=swept_columns(rows, campaign),
+        requirements=[asdict(each) for each in judgements(folder, campaign)],
         operating=operating_of(rows, campaign),
     )
 
