@@ -10,6 +10,7 @@ from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.plan import Plan
 from fddbench.campaign.plan import plan as planned
+from fddbench.errors import FddbenchError
 from fddbench.runner.run import Progress, RunReport, run_campaign
 
 __all__ = ["plan", "read", "run"]
@@ -54,6 +55,7 @@ def run(
     jobs: int = 2,
     fresh: bool = False,
     backend: str = "auto",
+    compiled_as: str | None = None,
     progress: Callable[[Progress], None] | None = None,
     notice: Callable[[str], None] | None = None,
     summarised: Callable[[pd.DataFrame, pd.DataFrame], None] | None = None,
@@ -68,6 +70,8 @@ def run(
         Where the results go, ``results/<name>`` by default.
     jobs, fresh, backend, progress, notice
         See `fddbench.runner.run.run_campaign`.
+    compiled_as : {"c"}, optional
+        Detectors that can be traced fly as the C that `fddbench.export` writes, compiled here; the same rows.
     summarised : callable, optional
         Called at the end of a run that was not interrupted with what ``fddbench.summary`` and ``fddbench.alarms`` give.
 
@@ -76,7 +80,10 @@ def run(
     fddbench.errors.FddbenchError
         A mistake in the campaign, or a folder of another campaign.
     """
+    if compiled_as not in (None, "c"):
+        raise FddbenchError(f"detectors fly as C or as they are; got compiled_as={compiled_as!r}, known: 'c'")
     own = campaign if isinstance(campaign, Campaign) else read(campaign)
+    backend += "" if compiled_as is None else f"+{compiled_as}"
     where = Path("results") / own.name if folder is None else Path(folder)
     report = run_campaign(own, where, jobs=jobs, fresh=fresh, backend=backend, progress=progress, notice=notice)
     if not report.interrupted:

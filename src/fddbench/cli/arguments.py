@@ -45,6 +45,10 @@ def parser() -> argparse.ArgumentParser:
         "--backend", choices=("auto", "llvm", "numpy"), default="auto",
         help="compiled where llvmlite is installed (auto), always, or never; no part of any result",
     )  # fmt: skip
+    run.add_argument(
+        "--compiled-as", choices=("c",), default=None,
+        help="fly detectors as exported C, compiled by the system's compiler: the same rows",
+    )  # fmt: skip
     run.add_argument("--quiet", action="store_true", help="no progress")
     run.add_argument("--wide", action="store_true", help="every column of the table, as wide as it is")
 

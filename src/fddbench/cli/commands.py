@@ -59,6 +59,7 @@ def _run(path: Path, args: argparse.Namespace) -> int:
             jobs=args.jobs,
             fresh=args.fresh,
             backend=args.backend,
+            compiled_as=args.compiled_as,
             progress=progress,
             notice=lambda text: print(f"fddbench: {text}", file=sys.stderr),
             summarised=lambda *tables: kept.append(tables),

@@ -20,6 +20,7 @@ from fddbench.runner.assembling import assemble
 from fddbench.runner.chunks import CHUNK, COMPILED_CHUNK, OPAQUE_CHUNK, cut, missing, spans
 from fddbench.runner.fingerprint import fingerprint_of, provenance_for
 from fddbench.runner.flight import Flyer
+from fddbench.runner.in_c import InC
 from fddbench.runner.pool import fly_all
 from fddbench.runner.rehearsal import rehearsed
 from fddbench.runner.work import lent
@@ -94,7 +95,8 @@ def run_campaign(
         Worker processes, and cases side by side; no part of any result.
     fresh : bool
         Replace what the folder holds.
-    backend : {"auto", "llvm", "numpy"}
+    backend : {"auto", "llvm", "numpy"}, or one of them and "+c"
+        With ``+c`` detectors that can be traced fly as exported C, compiled by the system's compiler.
         ``auto`` compiles where llvmlite is installed; no part of any result.
     progress, notice : callable
         Told at the beginning and after every chunk; told what slows the run down, and what was damaged and is flown again.
@@ -112,7 +114,7 @@ def run_campaign(
     flyer = rehearsed(flyer, notice)
     say = notice or _warned
     with locked(folder, notice=say):
-        claim(folder, files=campaign.files(), provenance=provenance_for(plan, fingerprint), fresh=fresh)
+        claim(folder, files=campaign.files(), provenance=provenance_for(plan, fingerprint) | in_c(flyer), fresh=fresh)
         left, told = _left(folder, plan.n_cases, fingerprint.sha256, progress, say)
         told.tell()
         size = chunk or _chunk(flyer)
@@ -131,6 +133,12 @@ def run_campaign(
         interrupted=interrupted,
         wall_s=time.monotonic() - begun,
     )
+
+
+def in_c(flyer: Flyer) -> dict[str, object]:
+    """Which detectors fly as C, and who compiled it, for the provenance; nothing where none does."""
+    flown = {name: own.detector for name, own in flyer.assembly.detectors.items() if isinstance(own.detector, InC)}
+    return {"flown_as_c": {name: str(each.by) for name, each in flown.items()}} if flown else {}
 
 
 def _left(
