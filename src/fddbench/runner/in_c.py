@@ -14,7 +14,7 @@ from fddbench.campaign.meaning import Campaign
 from fddbench.designs.adapted import Adapted
 from fddbench.designs.design import Design
 from fddbench.errors import CampaignError, DesignError, FddbenchError, Mistake
-from fddbench.exported.child import Child, CodeError, main_text
+from fddbench.exported.child import IMPATIENT_S, PATIENCE_S, Child, CodeError, Hung, main_text
 from fddbench.exported.code import sources
 from fddbench.exported.compiling import Compiler, built, compiler
 from fddbench.exported.flown_c import FlownC
@@ -60,6 +60,7 @@ class InC:
         self.sees, self.estimates, self._whose = whose.sees, whose.estimates, whose
         self.program = built({**files, "flown_by_fddbench.c": main_text(interface.name)}, by)
         self._running: tuple[int, FlownC] | None = None
+        self._patience_s = PATIENCE_S
         begun = self._flown()
         self._start = begun.start[:, np.newaxis].copy()
         self.states = Layout(CodeState(words=begun.words))
@@ -88,8 +89,10 @@ class InC:
             raise DesignError(f"it is C, compiled by {self.by}")
         try:
             words, given = self._flown().step(np.asarray(x.words), vars(measured))
-        except CodeError:
+        except CodeError as error:
             self._running = None
+            if isinstance(error, Hung):
+                self._patience_s = IMPATIENT_S
             raise
         estimate = given.get("estimate")
         return CodeState(words=words), Verdict(
@@ -103,7 +106,7 @@ class InC:
     def _flown(self) -> FlownC:
         """The running code; of this process, for a child belongs to the process that began it."""
         if self._running is None or self._running[0] != os.getpid():
-            self._running = os.getpid(), FlownC(self.interface, Child(self.program))
+            self._running = os.getpid(), FlownC(self.interface, Child(self.program, patience_s=self._patience_s))
         return self._running[1]
 
 
