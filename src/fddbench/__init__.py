@@ -12,11 +12,15 @@ if TYPE_CHECKING:
     from fddbench.api.campaigns import plan, read, run
     from fddbench.api.comparing import compare
     from fddbench.api.curves import operating_curve
+    from fddbench.api.databases import duckdb
+    from fddbench.api.datasets import dataset
     from fddbench.api.designs import tune
     from fddbench.api.detection_curves import pod
     from fddbench.api.exporting import export
+    from fddbench.api.extending import extend
     from fddbench.api.findings import finding
     from fddbench.api.flights import score, signals
+    from fddbench.api.merging import merge
     from fddbench.api.pages import report
     from fddbench.api.pictures import reconstruction_picture, tradeoff_picture
     from fddbench.api.replaying import table_of
@@ -34,11 +38,15 @@ __all__ = [
     "bounds",
     "columns",
     "compare",
+    "dataset",
     "detectable",
+    "duckdb",
     "export",
+    "extend",
     "finding",
     "load",
     "load_events",
+    "merge",
     "operating_curve",
     "plan",
     "pod",
@@ -67,6 +75,10 @@ _ROOMS = {
     **dict.fromkeys(("reconstruction_picture", "tradeoff_picture"), "pictures"),
     "compare": "comparing",
     "bounds": "bounds",
+    "dataset": "datasets",
+    "duckdb": "databases",
+    "extend": "extending",
+    "merge": "merging",
     "export": "exporting",
     "finding": "findings",
     "pod": "detection_curves",

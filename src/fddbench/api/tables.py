@@ -17,6 +17,7 @@ from fddbench.metrics.detectable import DETECTABLE
 from fddbench.metrics.operating import OPERATING
 from fddbench.metrics.summary import NEEDS, SUMMARY, summarize
 from fddbench.results import table
+from fddbench.results.filters import Condition
 from fddbench.results.fingerprint import Fingerprint
 from fddbench.results.folder import provenance_of
 from fddbench.results.schema import CASE, EVENTS, rows_schema
@@ -26,12 +27,18 @@ from fddbench.runner.fingerprint import frozen
 __all__ = ["alarms", "columns", "detectable", "in_sample", "leave_summary", "load", "load_events", "overview"]
 
 
-def load(folder: str | Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
+def load(
+    folder: str | Path, columns: Sequence[str] | None = None, filters: Sequence[Condition] | None = None
+) -> pd.DataFrame:
     """Rows of a folder of results, one per case and detector; Arrow-backed pandas, null means none.
 
     See `fddbench.results.table.load`.
+
+    Examples
+    --------
+    >>> load("results/smoke", ["case", "outcome"], [("detector", "=", "voting_monitor")])  # doctest: +SKIP
     """
-    return table.load(folder, columns)
+    return table.load(folder, columns, filters)
 
 
 def load_events(folder: str | Path) -> pd.DataFrame:

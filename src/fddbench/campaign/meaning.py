@@ -89,6 +89,12 @@ class Campaign:
     symbols: Any = None
 
     @property
+    def shown(self) -> tuple[str, ...]:
+        """Signals in the pictures of its flights: of what flies, where that says so, else of the benchmark."""
+        own: tuple[str, ...] = getattr(self.plant, "shown", self.bench.shown)
+        return own
+
+    @property
     def in_sample(self) -> tuple[str, ...]:
         """Designs that were tuned on flights of this campaign and seed: their scores here flatter them."""
         own = (self.name, self.seed)

@@ -10,8 +10,9 @@ from fddbench.errors import FddbenchError
 if TYPE_CHECKING:
     import pandas as pd
 
+    from fddbench.runner.run import RunReport
 
-__all__ = ["bound", "check", "cost", "finding", "init", "list_", "report", "run", "schema", "scores"]
+__all__ = ["bound", "check", "cost", "finding", "init", "list_", "report", "run", "schema", "scores", "told"]
 
 
 _INTERRUPTED = 130
@@ -64,6 +65,13 @@ def _run(path: Path, args: argparse.Namespace) -> int:
             notice=lambda text: print(f"fddbench: {text}", file=sys.stderr),
             summarised=lambda *tables: kept.append(tables),
         )
+    return told(report, kept, wide=args.wide)
+
+
+def told(report: "RunReport", kept: "list[tuple[pd.DataFrame, pd.DataFrame]]", *, wide: bool) -> int:
+    """Print how a run ended and its tables; exit code of the command."""
+    from fddbench.results.folder import provenance_of
+
     folder = report.folder
     if report.interrupted:
         done = report.continued + report.flights
@@ -73,9 +81,11 @@ def _run(path: Path, args: argparse.Namespace) -> int:
             file=sys.stderr,
         )
         return _INTERRUPTED
-    _summary(folder, kept[0], wide=args.wide, failed=report.failed_rows > 0)
+    _summary(folder, kept[0], wide=wide, failed=report.failed_rows > 0)
     again = f", {report.continued} found done" if report.continued else ""
     print(f"\n{report.flights} flights flown{again} in {report.wall_s:.1f} s; results in {folder}")
+    logs: dict[str, str] = provenance_of(folder).get("logs", {})
+    print("".join(f"log {name}: {said}\n" for name, said in logs.items()), end="")
     print(f"next: fddbench report {folder}")
     return 1 if report.failed_rows else 0
 
@@ -213,7 +223,9 @@ def list_(args: argparse.Namespace) -> int:
 
 
 def init(args: argparse.Namespace) -> int:
-    """Write files to start from: a detector, benchmark, fault or campaign of your own, or copies of the shipped ones.
+    """Write files to start from: of your own or copies of the shipped ones.
+
+    A detector, one that is trained, a benchmark, a fault or a campaign. `--benchmark recorded` writes logs and what maps them.
 
     What is there already is left alone.
     """
@@ -224,7 +236,8 @@ def init(args: argparse.Namespace) -> int:
         if name is not None:
             written = start(args.folder, what, name)
             print(*written, sep="\n")
-            print(f"next: fddbench run {written[-1]}")
+            first = f"python {args.folder / 'detectors' / f'train_{name}.py'}, then " if what == "trained" else ""
+            print(f"next: {first}fddbench run {written[-1]}")
             return 0
     for path in copy_shipped(args.folder):
         print(path)

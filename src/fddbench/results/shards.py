@@ -34,9 +34,11 @@ def write_bytes(path: Path, data: bytes) -> None:
             file.flush()
             os.fsync(file.fileno())
         aside.replace(path)
-    except BaseException:  # a full disk, Ctrl-C: nothing half written stays
+    except BaseException as error:  # a full disk, Ctrl-C: nothing half written stays
         with suppress(OSError):
             aside.unlink(missing_ok=True)
+        if isinstance(error, OSError) and error.filename is None:
+            error.filename = str(path)
         raise
     is_durable(path.parent)
 
@@ -88,8 +90,8 @@ def open_table(path: Path, sha256: str, *, schema: pa.Schema, fingerprint: str) 
     return found
 
 
-def read_columns(path: Path, opened: pq.ParquetFile, columns: Sequence[str]) -> pa.Table:
-    """Some columns of the table of a shard.
+def read_columns(path: Path, opened: pq.ParquetFile, columns: Sequence[str], group: int | None = None) -> pa.Table:
+    """Some columns of the table of a shard, of one of its groups of rows or of all.
 
     Raises
     ------
@@ -100,6 +102,8 @@ def read_columns(path: Path, opened: pq.ParquetFile, columns: Sequence[str]) -> 
     if missing:
         raise ResultsError(f"{path} has no column {missing[0]!r}; it has {', '.join(opened.schema_arrow.names)}")
     try:
+        if group is not None:
+            return opened.read_row_group(group, columns=list(columns), use_threads=False)
         return opened.read(columns=list(columns), use_threads=False)
     except (pa.ArrowException, OSError) as error:
         raise _no_table(path, error) from error

@@ -77,7 +77,10 @@ class Flyer:
         backend, plus, _ = backend.partition("+c")
         self.assembly, self.backend = as_c(assembly) if plus else assembly, backend + plus
         self.given_up = given_up or {}
-        self.compiled = (backend == "llvm" or (backend == "auto" and llvm.available())) and not self._acts_on_python()
+        large = bool(getattr(assembly.loop, "in_python", ""))
+        self.compiled = (backend == "llvm" or (backend == "auto" and llvm.available())) and not (
+            large or self._acts_on_python()
+        )
 
     def _acts_on_python(self) -> bool:
         """Whether the aircraft acts on a detector that cannot be compiled: then all fly in Python, sample by sample."""

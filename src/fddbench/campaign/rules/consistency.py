@@ -36,7 +36,7 @@ def inconsistencies(
     yield from ranges(document, written, plant)
     for number, entry in enumerate(written.scenarios):
         yield from times(document, written, number, faults[number], benchmark, plant)
-        if entry.detection_time_limit_s is not None and not faults[number]:
+        if entry.detection_time_limit_s is not None and not faults[number] and not hasattr(plant, "labelled"):
             message = "a healthy flight has no detection time; remove this key or add faults"
             yield document.mistake(("scenarios", number, "detection_time_limit_s"), message, key=True)
 
