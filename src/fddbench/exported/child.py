@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from fddbench.errors import FddbenchError
 
-__all__ = ["IMPATIENT_S", "Child", "CodeError", "Hung", "main_text"]
+__all__ = ["IMPATIENT_S", "Child", "CodeError", "HungError", "main_text"]
 
 Bytes = npt.NDArray[np.uint8]
 _MAGIC = 0x0FDDBE4C
@@ -94,7 +94,7 @@ class CodeError(FddbenchError):
     """Foreign code crashed, hung or spoke nonsense."""
 
 
-class Hung(CodeError):
+class HungError(CodeError):
     """It does not answer."""
 
 
@@ -191,7 +191,7 @@ class Child:
             ready, _, _ = select.select([self._process.stdout], [], [], self._patience_s)
             if not ready:
                 self._process.kill()
-                raise Hung("the code does not answer: a loop without end?")
+                raise HungError("the code does not answer: a loop without end?")
             part = self._process.stdout.read(left)
             if not part:
                 raise self._ended()

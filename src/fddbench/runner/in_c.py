@@ -14,7 +14,7 @@ from fddbench.campaign.meaning import Campaign
 from fddbench.designs.adapted import Adapted
 from fddbench.designs.design import Design
 from fddbench.errors import CampaignError, DesignError, FddbenchError, Mistake
-from fddbench.exported.child import IMPATIENT_S, PATIENCE_S, Child, CodeError, Hung, main_text
+from fddbench.exported.child import IMPATIENT_S, PATIENCE_S, Child, CodeError, HungError, main_text
 from fddbench.exported.code import sources
 from fddbench.exported.compiling import Compiler, built, compiler
 from fddbench.exported.flown_c import FlownC
@@ -91,7 +91,7 @@ class InC:
             words, given = self._flown().step(np.asarray(x.words), vars(measured))
         except CodeError as error:
             self._running = None
-            if isinstance(error, Hung):
+            if isinstance(error, HungError):
                 self._patience_s = IMPATIENT_S
             raise
         estimate = given.get("estimate")
