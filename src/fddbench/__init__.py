@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from fddbench.api.bounds import bounds
     from fddbench.api.campaigns import plan, read, run
+    from fddbench.api.compacting import compact
     from fddbench.api.comparing import compare
     from fddbench.api.curves import operating_curve
     from fddbench.api.databases import duckdb
@@ -37,6 +38,7 @@ __all__ = [
     "alarms",
     "bounds",
     "columns",
+    "compact",
     "compare",
     "dataset",
     "detectable",
@@ -53,6 +55,7 @@ __all__ = [
     "read",
     "reconstruction_picture",
     "report",
+    "requirements",
     "run",
     "schema",
     "score",
@@ -73,6 +76,7 @@ _ROOMS = {
     **dict.fromkeys(("alarms", "columns", "detectable", "load", "load_events"), "tables"),
     **dict.fromkeys(("score", "signals"), "flights"),
     **dict.fromkeys(("reconstruction_picture", "tradeoff_picture"), "pictures"),
+    "compact": "compacting",
     "compare": "comparing",
     "bounds": "bounds",
     "dataset": "datasets",
@@ -85,6 +89,7 @@ _ROOMS = {
     "schema": "schemas",
     "summary": "summaries",
     "report": "pages",
+    "requirements": "requiring",
     "table_of": "replaying",
     "tradeoff": "tradeoffs",
     "operating_curve": "curves",

@@ -15,6 +15,7 @@ from fddbench.metrics.alarms import ALARMS, summarize_alarms
 from fddbench.metrics.bound import BOUNDS
 from fddbench.metrics.detectable import DETECTABLE
 from fddbench.metrics.operating import OPERATING
+from fddbench.metrics.requirements import JUDGEMENTS
 from fddbench.metrics.summary import NEEDS, SUMMARY, summarize
 from fddbench.results import table
 from fddbench.results.filters import Condition
@@ -118,9 +119,9 @@ def columns(table: str = "rows") -> dict[str, str]:
 
     Parameters
     ----------
-    table : {"rows", "events", "summary", "alarms", "detectable", "bounds", "operating"}
-        As `load`, `load_events`, `summary`, `alarms`, `detectable`, `bounds` and `operating_curve` give them. Rows have
-        besides a column ``p_<name>`` a parameter, ``f1_<key>`` what is drawn or swept of the first fault, and
+    table : {"rows", "events", "summary", "alarms", "detectable", "bounds", "operating", "requirements"}
+        As `load`, `load_events`, `summary`, `alarms`, `detectable`, `bounds`, `operating_curve` and `requirements` give
+        them. Rows have besides a column ``p_<name>`` a parameter, ``f1_<key>`` what is drawn or swept of the first fault, and
         ``gain_<key>`` or ``factor_<key>`` what is swept of detectors.
 
     Examples
@@ -129,7 +130,7 @@ def columns(table: str = "rows") -> dict[str, str]:
     'from the onset to the first alarm raised since [s]; null: none'
     """
     known = {"rows": [CASE, *rows_schema(())], "events": [CASE, *EVENTS], "summary": SUMMARY, "alarms": ALARMS}
-    known |= {"detectable": DETECTABLE, "bounds": BOUNDS, "operating": OPERATING}
+    known |= {"detectable": DETECTABLE, "bounds": BOUNDS, "operating": OPERATING, "requirements": JUDGEMENTS}
     if table not in known:
         raise FddbenchError(f"no table is called {table!r}; known: {', '.join(known)}")
     return {field.name: field.metadata[b"about"].decode() for field in known[table]}

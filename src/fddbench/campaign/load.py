@@ -129,7 +129,7 @@ def _content(
 ) -> dict[str, Any]:
     """Everything that decides rows, as plain data."""
     content: dict[str, Any] = written.model_dump(
-        mode="json", exclude={"about", "scenarios", "report", "symbols"}
+        mode="json", exclude={"about", "scenarios", "report", "requirements", "symbols"}
     ) | dict(choices)
     content["scenarios"] = [
         entry.model_dump(mode="json")
@@ -149,4 +149,15 @@ def _content(
     return content
 
 
-_AS_WRITTEN = ("name", "about", "benchmark", "purpose", "seed", "sample_s", "substeps", "duration_s", "dispersions")
+_AS_WRITTEN = (
+    "name",
+    "about",
+    "benchmark",
+    "purpose",
+    "seed",
+    "sample_s",
+    "substeps",
+    "duration_s",
+    "dispersions",
+    "requirements",
+)

@@ -4,13 +4,13 @@ import argparse
 from pathlib import Path
 
 from fddbench import __version__
-from fddbench.cli import aircraft, commands, completing, counting, data_sets, designing, exporting, looking
+from fddbench.cli import aircraft, commands, completing, counting, data_sets, designing, exporting, looking, requiring
 from fddbench.cli.added import add
 from fddbench.cli.checked_numbers import flights as _flights
-from fddbench.cli.checked_numbers import jobs as _jobs
 from fddbench.cli.checked_numbers import probability as _probability
 from fddbench.cli.checked_numbers import share as _share
 from fddbench.cli.folder_arguments import growing_arguments, looking_arguments, trusting, verify_arguments
+from fddbench.cli.run_arguments import run_arguments
 
 __all__ = ["parser"]
 
@@ -20,34 +20,16 @@ def parser() -> argparse.ArgumentParser:
     top = argparse.ArgumentParser(
         prog="fddbench",
         description="Monte-Carlo benchmark campaigns for aerospace fault detection and diagnosis.",
-        epilog="Exit codes: 0 done, 1 done but some cases failed, 2 a mistake in what you wrote, 74 a disk that is full or "
-        "fails, 130 interrupted (Ctrl-C), 143 ended from outside (SIGTERM).",
+        epilog="Exit codes: 0 done, 1 done but some cases failed or a requirement is not met, 2 a mistake in what you wrote, "
+        "74 a disk that is full or fails, 130 interrupted (Ctrl-C), 143 ended from outside (SIGTERM).",
     )
     top.add_argument("--version", action="version", version=f"fddbench {__version__}")
     subs = top.add_subparsers(metavar="COMMAND")
 
     run = add(subs, "run", commands.run)
-    run.add_argument(
-        "campaigns", type=Path, nargs="+", metavar="CAMPAIGN.yaml", help="campaign files, or names of shipped ones"
-    )
+    run_arguments(run)
     _set(run)
-    run.add_argument(
-        "--out", type=Path, metavar="DIR", help="folder of results (default: results/<name of the campaign>)"
-    )
-    run.add_argument(
-        "--jobs", type=_jobs, default=2, metavar="N", help="worker processes (default: 2); no part of any result"
-    )
-    run.add_argument("--fresh", action="store_true", help="replace what the folder holds")
-    run.add_argument(
-        "--backend", choices=("auto", "llvm", "numpy"), default="auto",
-        help="compiled where llvmlite is installed (auto), always, or never; no part of any result",
-    )  # fmt: skip
-    run.add_argument(
-        "--compiled-as", choices=("c",), default=None,
-        help="fly detectors as exported C, compiled by the system's compiler: the same rows",
-    )  # fmt: skip
-    run.add_argument("--quiet", action="store_true", help="no progress")
-    run.add_argument("--wide", action="store_true", help="every column of the table, as wide as it is")
+    requiring.arguments(run)
 
     _reading(subs)
     looking_arguments(subs)

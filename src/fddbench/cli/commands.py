@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from fddbench.cli.requiring import all_pass, require_stated
 from fddbench.errors import FddbenchError
 
 if TYPE_CHECKING:
@@ -22,12 +23,14 @@ def run(args: argparse.Namespace) -> int:
     """Fly campaigns and write their tables.
 
     Goes on where an earlier run of the same campaign stopped. Ctrl-C stops after saving what is finished. Of several campaigns
-    one with a mistake does not keep the others from flying; the exit code is the worst of theirs.
+    one with a mistake does not keep the others from flying; the exit code is the worst of theirs. What a campaign requires is
+    judged; with --require the run ends with 1 unless all of it is shown to be met.
     """
     if len(args.campaigns) == 1:
         return _run(args.campaigns[0], args)
-    if args.out is not None:
-        raise FddbenchError("--out names the folder of one campaign; several go into results/<name of each>")
+    for option, what in (("out", "folder"), ("junit", "verdicts")):
+        if getattr(args, option) is not None:
+            raise FddbenchError(f"--{option} names the {what} of one campaign; several go into results/<name of each>")
     codes: dict[Path, int] = {}
     for path in args.campaigns:
         print(f"== {path}")
@@ -39,7 +42,7 @@ def run(args: argparse.Namespace) -> int:
         if codes[path] == _INTERRUPTED:
             return _INTERRUPTED
         print()
-    words = {0: "done", 1: "done, some flights failed", 2: "not flown, see above"}
+    words = {0: "done", 1: "done, some flights failed or requirements not met", 2: "not flown, see above"}
     width = max(len(str(path)) for path in codes)
     for path, code in codes.items():
         print(f"{path!s:<{width}}  {words[code]}")
@@ -52,6 +55,8 @@ def _run(path: Path, args: argparse.Namespace) -> int:
     from fddbench.cli.progress import shown
 
     campaign = campaigns.read(path, args.overrides)
+    if args.require or args.junit:
+        require_stated(campaign, "--require" if args.require else "--junit")
     kept: list[tuple[pd.DataFrame, pd.DataFrame]] = []
     with shown(campaign.name, quiet=args.quiet) as progress:
         report = campaigns.run(
@@ -61,15 +66,26 @@ def _run(path: Path, args: argparse.Namespace) -> int:
             fresh=args.fresh,
             backend=args.backend,
             compiled_as=args.compiled_as,
+            engine=args.engine,
+            address=args.dask_address or args.ray_address,
+            only=args.only,
+            retry_failed=args.retry_failed,
             progress=progress,
             notice=lambda text: print(f"fddbench: {text}", file=sys.stderr),
             summarised=lambda *tables: kept.append(tables),
         )
-    return told(report, kept, wide=args.wide)
+    return told(report, kept, wide=args.wide, require=args.require, junit=args.junit)
 
 
-def told(report: "RunReport", kept: "list[tuple[pd.DataFrame, pd.DataFrame]]", *, wide: bool) -> int:
-    """Print how a run ended and its tables; exit code of the command."""
+def told(
+    report: "RunReport",
+    kept: "list[tuple[pd.DataFrame, pd.DataFrame]]",
+    *,
+    wide: bool,
+    require: bool = False,
+    junit: Path | None = None,
+) -> int:
+    """Print how a run ended, its tables and the verdicts on what its campaign requires; exit code of the command."""
     from fddbench.results.folder import provenance_of
 
     folder = report.folder
@@ -82,12 +98,13 @@ def told(report: "RunReport", kept: "list[tuple[pd.DataFrame, pd.DataFrame]]", *
         )
         return _INTERRUPTED
     _summary(folder, kept[0], wide=wide, failed=report.failed_rows > 0)
+    passed = all_pass(folder, junit=junit, job=require)
     again = f", {report.continued} found done" if report.continued else ""
     print(f"\n{report.flights} flights flown{again} in {report.wall_s:.1f} s; results in {folder}")
     logs: dict[str, str] = provenance_of(folder).get("logs", {})
     print("".join(f"log {name}: {said}\n" for name, said in logs.items()), end="")
     print(f"next: fddbench report {folder}")
-    return 1 if report.failed_rows else 0
+    return 1 if report.failed_rows or (require and not passed) else 0
 
 
 def _summary(folder: Path, tables: "tuple[pd.DataFrame, pd.DataFrame]", *, wide: bool, failed: bool) -> None:
