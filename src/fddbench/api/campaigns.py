@@ -93,10 +93,7 @@ def run(
     fddbench.errors.FddbenchError
         A mistake in the campaign, or a folder of another campaign.
     """
-    if compiled_as not in (None, "c"):
-        raise FddbenchError(f"detectors fly as C or as they are; got compiled_as={compiled_as!r}, known: 'c'")
     own = campaign if isinstance(campaign, Campaign) else read(campaign)
-    backend += "" if compiled_as is None else f"+{compiled_as}"
     where = Path("results") / own.name if folder is None else Path(folder)
     words = [only] if isinstance(only, str) else only
     report = run_campaign(
@@ -104,7 +101,7 @@ def run(
         where,
         engine=Engine(name=engine, jobs=jobs, address=address),
         fresh=fresh,
-        backend=backend,
+        backend=_with_code(backend, compiled_as),
         wanted=selected(planned(own), words) if words else None,
         retry_failed=retry_failed,
         progress=progress,
@@ -115,3 +112,10 @@ def run(
         if summarised is not None:
             summarised(*tables)
     return report
+
+
+def _with_code(backend: str, compiled_as: str | None) -> str:
+    """Back end with the language in which detectors fly."""
+    if compiled_as not in (None, "c"):
+        raise FddbenchError(f"detectors fly as C or as they are; got compiled_as={compiled_as!r}, known: 'c'")
+    return backend if compiled_as is None else f"{backend}+{compiled_as}"

@@ -101,8 +101,7 @@ def run_campaign(
     fresh : bool
         Replace what the folder holds.
     backend : {"auto", "llvm", "numpy"}, or one of them and "+c"
-        With ``+c`` detectors that can be traced fly as exported C, compiled by the system's compiler.
-        ``auto`` compiles where llvmlite is installed; no part of any result.
+        See `fddbench.runner.flight.Flyer`; no part of any result.
     wanted, retry_failed : array of bool, optional, and bool
         Fly these rows only, (n_detectors, n_cases), see `fddbench.campaign.selection`; fly shards again that have failed rows.
     progress, notice : callable
