@@ -73,20 +73,19 @@ def run(
     campaign : Campaign, str or Path
         As read, or what `read` takes.
     folder : str or Path, optional
-        Where the results go, ``results/<name>`` by default.
+        Of results, ``results/<name>`` by default.
     jobs, fresh, backend, retry_failed, progress, notice
         See `fddbench.runner.run.run_campaign`.
     compiled_as : {"c"}, optional
-        Detectors that can be traced fly as the C that `fddbench.export` writes, compiled here; the same rows.
+        Detectors fly as the C that `fddbench.export` writes; the same rows.
     engine : {"auto", "threads", "loky", "dask", "ray"}
         Who flies; no part of any result. ``auto``: threads where compiled code flies, else processes.
     address : str, optional
         Of a dask or ray cluster, ``tcp://host:8786``; by default one of this machine for the time of the run.
     only : str or sequence of str
-        Fly a part, ``"scenario=jam_a,detector=voting_monitor,run=0-99"``; of several texts everything that any of them names.
-        The folder holds a part of its campaign until the rest is flown.
+        Fly a part, ``"scenario=jam_a,run=0-99"``, of several texts all that any names; the folder is in part until the rest is.
     summarised : callable, optional
-        Called at the end of a run that was not interrupted with what ``fddbench.summary`` and ``fddbench.alarms`` give.
+        Called at the end of a whole run with what ``fddbench.summary`` and ``fddbench.alarms`` give.
 
     Raises
     ------
@@ -108,10 +107,12 @@ def run(
         notice=notice,
     )
     if not report.interrupted:
-        tables = leave_summary(where)
-        if summarised is not None:
-            summarised(*tables)
+        (summarised or _unheard)(*leave_summary(where))
     return report
+
+
+def _unheard(*_: pd.DataFrame) -> None:
+    """Nobody asked for the tables."""
 
 
 def _with_code(backend: str, compiled_as: str | None) -> str:
