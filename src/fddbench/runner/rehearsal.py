@@ -81,7 +81,7 @@ def _always_failing(flyer: Flyer, name: str, first: Batch) -> GivenUp | None:
     lines: set[tuple[str, str]] = set()
     for i, case in enumerate(first.cases.tolist()):
         batch = first.take(np.array([i]))
-        flight = DetectorFlight(flyer.assembly, name, batch)
+        flight = DetectorFlight(flyer.assembly, name, batch, feed=flyer.feed)
         flyer.feed(batch, [flight])
         _, errors = flight.finish()
         raised = flight.verdicts.raised[0]
@@ -156,14 +156,14 @@ def _made_again(assembly: Assembly, name: str) -> Adapted:
     own = assembly.detectors[name]
     for design in assembly.plan.campaign.designs:
         if design.name == name:
-            made = Adapted(design.build(own.bus), own.bus, design.every)
+            made = Adapted(design.build(own.bus), own.bus, design.every, design)
             return made if type(made.detector) is type(own.detector) else own
     return own
 
 
 def _heard(flyer: Flyer, assembly: Assembly, name: str, batch: Batch) -> DetectorFlight:
     """A detector on a batch, every verdict kept."""
-    flight = DetectorFlight(assembly, name, batch, hear=True)
+    flight = DetectorFlight(assembly, name, batch, hear=True, feed=flyer.feed)
     flyer.feed(batch, [flight])
     return flight
 
