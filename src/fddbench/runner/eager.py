@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +11,7 @@ from fddbench.designs.adapted import Adapted
 from fddbench.interfaces import NEVER, Floats, Sample, Verdict
 from fddbench.runner.assembly import Assembly, Batch
 from fddbench.runner.fused import shown
+from fddbench.runner.lasting import ConsequenceFlight
 from fddbench.runner.reconfiguration import acted_on, nothing_declared, without_commander
 from fddbench.runner.supervised.verdicts import Supervised, supervisable
 from fddbench.runner.verdicts import Verdicts, verdicts_of
@@ -185,26 +185,6 @@ def _names(detector: Adapted) -> tuple[str, ...]:
     of = {None: (), "sites": tuple(f"estimate of {site}" for site in sites)}
     estimates = of.get(detector.estimates, (f"estimate of {detector.estimates}",))
     return (*(f"declaration of {site}" for site in sites), "alarm", "residual", *estimates, *detector.recorded)
-
-
-class ConsequenceFlight:
-    """What is kept of the flights of a batch themselves, fed with what the loop shows sample by sample."""
-
-    def __init__(self, assembly: Assembly, batch: Batch) -> None:
-        self.consequences, n_cases = assembly.consequences, len(batch.cases)
-        self.constants = assembly.scoring.constants.unpack(batch.score_constants)
-        self.state = self.consequences.states.spread(self.consequences.start(), n_cases)
-
-    def step(self, seen: Sample, sample: float, departed: Floats) -> None:
-        """Take one more sample."""
-        c = self.constants
-        when: dict[str, Any] = {"k0": c.k0, "last": c.last, "sample": sample, "alive": sample < departed}
-        self.state = self.consequences.step(self.state, seen.truth, **when)
-
-    def rows(self) -> Floats:
-        """All that is kept, (n_rows, n_cases)."""
-        packed: Floats = self.consequences.states.pack(self.state, len(self.constants.k0))
-        return packed
 
 
 def fly_eagerly(

@@ -8,7 +8,8 @@ import numpy.typing as npt
 from fddbench.designs.adapted import Adapted
 from fddbench.interfaces import Floats, Verdict
 from fddbench.runner.supervised.order import Order
-from fddbench.runner.supervised.processes import DiedError, FlightProcess, Raisings, Stage, can_supervise
+from fddbench.runner.supervised.processes import DiedError, FlightProcess, Raisings
+from fddbench.runner.supervised.stages import Stage, can_supervise
 from fddbench.runner.supervised.wire import Shape
 from fddbench.runner.verdicts import Raised
 
