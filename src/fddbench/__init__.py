@@ -10,12 +10,18 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from fddbench.api.bounds import bounds
     from fddbench.api.campaigns import plan, read, run
+    from fddbench.api.compacting import compact
     from fddbench.api.comparing import compare
     from fddbench.api.curves import operating_curve
+    from fddbench.api.databases import duckdb
+    from fddbench.api.datasets import dataset
     from fddbench.api.designs import tune
     from fddbench.api.detection_curves import pod
+    from fddbench.api.exporting import export
+    from fddbench.api.extending import extend
     from fddbench.api.findings import finding
     from fddbench.api.flights import score, signals
+    from fddbench.api.merging import merge
     from fddbench.api.pages import report
     from fddbench.api.pictures import reconstruction_picture, tradeoff_picture
     from fddbench.api.replaying import table_of
@@ -32,17 +38,24 @@ __all__ = [
     "alarms",
     "bounds",
     "columns",
+    "compact",
     "compare",
+    "dataset",
     "detectable",
+    "duckdb",
+    "export",
+    "extend",
     "finding",
     "load",
     "load_events",
+    "merge",
     "operating_curve",
     "plan",
     "pod",
     "read",
     "reconstruction_picture",
     "report",
+    "requirements",
     "run",
     "schema",
     "score",
@@ -63,13 +76,20 @@ _ROOMS = {
     **dict.fromkeys(("alarms", "columns", "detectable", "load", "load_events"), "tables"),
     **dict.fromkeys(("score", "signals"), "flights"),
     **dict.fromkeys(("reconstruction_picture", "tradeoff_picture"), "pictures"),
+    "compact": "compacting",
     "compare": "comparing",
     "bounds": "bounds",
+    "dataset": "datasets",
+    "duckdb": "databases",
+    "extend": "extending",
+    "merge": "merging",
+    "export": "exporting",
     "finding": "findings",
     "pod": "detection_curves",
     "schema": "schemas",
     "summary": "summaries",
     "report": "pages",
+    "requirements": "requiring",
     "table_of": "replaying",
     "tradeoff": "tradeoffs",
     "operating_curve": "curves",

@@ -6,7 +6,18 @@ from typing import Final
 
 from fddbench.errors import FddbenchError
 
-__all__ = ["DEG_PER_RAD", "RAD_PER_DEG", "SUFFIXES", "UNITS", "Unit", "suffix_of_name", "unit", "unit_of_name"]
+__all__ = [
+    "DEG_PER_RAD",
+    "FACTORS",
+    "RAD_PER_DEG",
+    "SUFFIXES",
+    "UNITS",
+    "Unit",
+    "converts",
+    "suffix_of_name",
+    "unit",
+    "unit_of_name",
+]
 
 DEG_PER_RAD: Final = 180.0 / pi
 RAD_PER_DEG: Final = pi / 180.0
@@ -93,6 +104,47 @@ SUFFIXES: dict[str, str] = {
 }
 """Unit by what a name carries behind it."""
 
+FACTORS: dict[str, tuple[str, float]] = {
+    "": ("number", 1.0),
+    "-": ("number", 1.0),
+    "ratio": ("number", 1.0),
+    "%": ("number", 0.01),
+    "s": ("time", 1.0),
+    "ms": ("time", 1e-3),
+    "us": ("time", 1e-6),
+    "ns": ("time", 1e-9),
+    "min": ("time", 60.0),
+    "h": ("time", 3600.0),
+    "deg": ("angle", RAD_PER_DEG),
+    "rad": ("angle", 1.0),
+    "mrad": ("angle", 1e-3),
+    "deg/s": ("angular rate", RAD_PER_DEG),
+    "rad/s": ("angular rate", 1.0),
+    "mrad/s": ("angular rate", 1e-3),
+    "m": ("length", 1.0),
+    "ft": ("length", 0.3048),
+    "km": ("length", 1000.0),
+    "m/s": ("speed", 1.0),
+    "kt": ("speed", 1852.0 / 3600.0),
+    "km/h": ("speed", 1.0 / 3.6),
+    "ft/s": ("speed", 0.3048),
+    "ft/min": ("speed", 0.3048 / 60.0),
+    "m/s^2": ("acceleration", 1.0),
+    "g": ("acceleration", 9.80665),
+    "N": ("force", 1.0),
+    "kN": ("force", 1000.0),
+    "lbf": ("force", 4.4482216152605),
+    "N m": ("moment", 1.0),
+    "kg": ("mass", 1.0),
+    "lb": ("mass", 0.45359237),
+    "K": ("temperature", 1.0),
+    "Pa": ("pressure", 1.0),
+    "hPa": ("pressure", 100.0),
+    "A": ("current", 1.0),
+    "V": ("voltage", 1.0),
+}
+"""What a recording may be in: the quantity, and how much one of it is in the unit of the quantity."""
+
 _LONGEST_FIRST = sorted(SUFFIXES, key=len, reverse=True)
 
 
@@ -126,3 +178,26 @@ def unit_of_name(name: str) -> str:
     ('kg', 'deg/s^2', '', '')
     """
     return SUFFIXES.get(suffix_of_name(name), "")
+
+
+def converts(one: str, other: str) -> float:
+    """Factor from a unit to another of the same quantity; 1, to the last bit, between equal ones.
+
+    >>> converts("kt", "m/s") == 1852 / 3600, converts("deg/s", "deg/s")
+    (True, 1.0)
+
+    Raises
+    ------
+    FddbenchError
+        A unit is unknown, or they measure different things.
+    """
+    for each in (one, other):
+        if each not in FACTORS:
+            known = ", ".join(filter(None, FACTORS))
+            raise FddbenchError(f"no unit is called {each!r}; recordings may be in {known}")
+    (quantity, factor), (wanted, per) = FACTORS[one], FACTORS[other]
+    if quantity != wanted:
+        raise FddbenchError(
+            f"{one or 'a plain number'} is no unit of {wanted} and cannot become {other or 'a plain number'}"
+        )
+    return 1.0 if one == other else factor / per

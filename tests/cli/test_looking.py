@@ -7,7 +7,7 @@ from scipy.io import loadmat
 
 import fddbench
 from fddbench.cli.main import main
-from fddbench.reporting.flight_picture import declarations
+from fddbench.reporting.declarations import declarations
 
 CAMPAIGN = """
 name: looked

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.stats import betabinom, binom
 
 from fddbench.errors import FddbenchError
-from fddbench.metrics.clustered import korn_graubard
+from fddbench.metrics.clustered import korn_graubard, pooled_intervals
 from fddbench.metrics.intervals import beta_interval, clopper_pearson
 
 NINE = [9] * 25
@@ -175,3 +175,17 @@ def test_that_simulation_sees_what_the_plain_interval_gets_wrong():
     held = binom.pmf(y, RUNS, 0.02)[(low <= 0.02) & (high >= 0.02)].sum()
     assert held < 0.5
     assert betabinom.pmf(0, ROWS, 0.02, 0.98) > 0.9  # at correlation 0.5 most runs have no hit
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.lists(st.lists(st.tuples(st.integers(0, 4), st.integers(0, 4)), min_size=2, max_size=2), min_size=1, max_size=8)
+)
+def test_many_shares_at_once_have_the_intervals_of_each(table):
+    hits = np.array([[min(k, n) for k, n in row] for row in table], dtype=float)
+    trials = np.array([[n for _, n in row] for row in table], dtype=float)
+    low, high = pooled_intervals(hits, trials)
+    for j in range(2):
+        own = korn_graubard(hits[:, j].astype(int), range(len(table)), trials=trials[:, j].astype(int))
+        ends = [np.nan if end is None else end for end in (own.low, own.high)]
+        np.testing.assert_allclose([low[j], high[j]], ends)

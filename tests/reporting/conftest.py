@@ -6,7 +6,7 @@ import pyarrow as pa
 import pytest
 
 from fddbench.interfaces import Recording
-from fddbench.reporting.page import ReportData
+from fddbench.reporting.page.data import ReportData
 from fddbench.reporting.published import published
 from fddbench.results.schema import EVENTS, rows_schema
 from fddbench.results.table import named

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from fddbench.interfaces import Bands, Response
-from fddbench.reporting.bands import asked_of, band_pictures, names_in
-from fddbench.reporting.page import page_html
+from fddbench.reporting.bands import asked_of, band_sections, names_in
+from fddbench.reporting.page.writing import page_html
 
 
 def bands(onset_s=None):
@@ -40,9 +40,10 @@ def test_names_to_record_are_those_of_panels_commands_and_limits():
 
 @pytest.mark.parametrize("onset_s", [None, 2.0])
 def test_pictures_say_how_many_flights_they_hold(onset_s):
-    (picture,) = band_pictures([bands(onset_s)], RESPONSES, ("r_deg_s",))
+    (picture,) = band_sections([bands(onset_s)], RESPONSES, ("r_deg_s",))
     assert (picture["flights"], picture["of"], picture["onset_s"]) == (3, 9, onset_s)
-    assert len(picture["png"]) > 10_000
+    assert len(picture["scenes"]) >= 2
+    assert all(scene.svg().startswith("<svg") for scene in picture["scenes"])
 
 
 def test_only_a_page_that_was_given_bands_shows_them(make_report):

@@ -1,6 +1,5 @@
 """From a benchmark that asks for maps to the table, the scores and the page."""
 
-import base64
 import json
 import shutil
 from dataclasses import replace
@@ -19,7 +18,7 @@ from fddbench.cli import main
 from fddbench.errors import FddbenchError
 from fddbench.metrics.alarms import summarize_alarms
 from fddbench.metrics.detectable import DETECTABLE, summarize_detectable
-from fddbench.reporting.detectability import MAP_HEADS, detectability_lines, detectability_pictures
+from fddbench.reporting.detectability import MAP_HEADS, detectability_lines, detectability_scenes
 from fddbench.runner.run import run_campaign
 
 BESIDE = Path(__file__).parent.parent / "probes" / "beside"
@@ -59,7 +58,7 @@ def test_scores_and_page_say_it(flown, capsys):
     line = yaml.safe_load(capsys.readouterr().out)["detectable"][0]
     assert (line["site"], line["size"], line["flights"], "times" in line) == ("first", "amplitude_deg", 240, False)
     page = fddbench.report(flown).read_text(encoding="utf-8")
-    assert '<h2 id="detectability">' in page
+    assert "Smallest faults found" in page
     assert "first: amplitude [deg]" in page
 
 
@@ -80,10 +79,10 @@ def test_a_benchmark_that_derives_nonsense_is_told(flown, monkeypatch):
 def test_pictures_and_lines_say_how_much_stands_behind():
     rows = frame(300)
     maps, alarms = summarize_detectable(rows, [MAP, replace(MAP, times="")]), summarize_alarms(rows)
-    pictures = detectability_pictures(maps, alarms)
+    pictures = detectability_scenes(maps, alarms)
     assert [picture["quantity"] for picture in pictures] == ["loss × |trim| [deg]", "loss [%]"]
     for picture in pictures:
-        assert base64.b64decode(picture["png"]).startswith(b"\x89PNG")
+        assert [scene.svg().count("<svg") for scene in picture["scenes"]] == [1] * len(picture["scenes"])
     lines = {(line[0].small, line[1].text): line for line in detectability_lines(maps, alarms)}
     assert {len(line) for line in lines.values()} == {len(MAP_HEADS)}
     good, blind = (lines["fin: loss × |trim| [deg]", name] for name in ("good", "blind"))
@@ -97,9 +96,9 @@ def test_pictures_and_lines_say_how_much_stands_behind():
 def test_too_few_flights_are_shown_as_such():
     rows = frame(20)
     maps, alarms = summarize_detectable(rows, [MAP]), summarize_alarms(rows)
-    assert len(detectability_pictures(maps, alarms)) == 1
+    assert len(detectability_scenes(maps, alarms)) == 1
     for line in detectability_lines(maps, alarms):
         assert [cell.text for cell in line[2:5]] == ["–", "–", "–"]
     nothing = maps[np.zeros(len(maps), dtype=bool)]
-    assert detectability_pictures(nothing, alarms) == []
+    assert detectability_scenes(nothing, alarms) == []
     assert isinstance(nothing, pd.DataFrame)

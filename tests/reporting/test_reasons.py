@@ -4,7 +4,7 @@ import yaml
 
 from fddbench import gallery
 from fddbench.campaign.load import read_campaign
-from fddbench.reporting.page import page_html
+from fddbench.reporting.page.writing import page_html
 from fddbench.reporting.reasons import reason_table
 
 SHA = read_campaign(gallery.folder("campaigns") / "fes_monte_carlo.yaml").sha256

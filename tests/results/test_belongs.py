@@ -18,7 +18,7 @@ from fddbench.results.folder import provenance_of
 from fddbench.results.shards import write_table
 from fddbench.runner import fingerprint as runner_fingerprint
 from fddbench.runner.fingerprint import fingerprint_of
-from fddbench.runner.work import fly_and_write
+from fddbench.runner.work import Work, fly_and_write
 
 
 def another_version(monkeypatch, **versions):
@@ -163,7 +163,7 @@ def test_a_worker_of_another_program_writes_nothing(campaign, out, monkeypatch):
     own, before = fingerprint_of(campaign).sha256, everything(out)
     other_source(monkeypatch)
     with pytest.raises(ResultsError, match="a worker .* is another program than its parent .*fddbench/metrics"):
-        fly_and_write(str(out / "." / "."), own, "numpy", (), ((0, 2),))
+        fly_and_write(Work(folder=str(out / "." / "."), fingerprint=own, backend="numpy"), ((0, 2),))
     assert everything(out) == before
 
 
@@ -184,6 +184,7 @@ def test_another_name_for_the_same_campaign_is_the_same(out, tmp_path):
     (tmp_path / "again.yaml").write_text(TEXT.replace("name: small", "name: small\nabout: in other words"))
     again = read_campaign(tmp_path / "again.yaml")
     assert fly(again, out).flights == 0
+    assert "in other words" in (out / "campaign.yaml").read_text()
     (out / "campaign.yaml").unlink()
     assert fly(again, out).flights == 0
     assert report(out).is_file()

@@ -105,4 +105,4 @@ def test_what_cannot_be_computed_has_no_score_and_the_page_one_picture_less(tmp_
     assert rows["status"].to_dict() == {"huge": "nonfinite", "sound": "ok"}
     assert rows.loc["huge", ["outcome", "detection_time_s", "margin_faulty"]].isna().all()
     page = fddbench.report(tmp_path / "results").read_text()
-    assert page.count(" cases; onset 5 s") == 1
+    assert page.count("Onset 5 s; bands of") == 1

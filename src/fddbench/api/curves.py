@@ -14,7 +14,7 @@ from fddbench.metrics.operating import OperatingPoint
 from fddbench.results import table
 from fddbench.runner.fingerprint import frozen
 
-__all__ = ["operating_curve"]
+__all__ = ["operating_curve", "operating_of"]
 
 
 def operating_curve(folder: str | Path, *, design: str | None = None, gain: str | None = None) -> pd.DataFrame:
@@ -51,6 +51,14 @@ def operating_curve(folder: str | Path, *, design: str | None = None, gain: str 
         )
     points = [point for curve in curves for point in sorted(_points(campaign, *curve), key=_place)]
     return operating.operating_curve(table.load(folder, ["case", *operating.NEEDS]), points)
+
+
+def operating_of(rows: pd.DataFrame, campaign: Campaign) -> pd.DataFrame | None:
+    """Curves of every gain that a campaign sweeps, from its rows; None where it sweeps none."""
+    points = [
+        point for curve in dict.fromkeys(_curves(campaign)) for point in sorted(_points(campaign, *curve), key=_place)
+    ]
+    return operating.operating_curve(rows, points) if points else None
 
 
 def _curves(campaign: Campaign) -> Iterator[tuple[str, str, bool]]:

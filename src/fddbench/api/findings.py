@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import pandas as pd
+
 from fddbench.api.tables import alarms, load
 from fddbench.campaign.meaning import Campaign
 from fddbench.reporting.finding import finding_text
@@ -9,7 +11,7 @@ from fddbench.results.folder import provenance_of
 from fddbench.results.whole import require_whole
 from fddbench.runner.fingerprint import frozen
 
-__all__ = ["finding"]
+__all__ = ["finding", "swept_columns"]
 
 
 def finding(folder: str | Path) -> str:
@@ -30,7 +32,7 @@ def finding(folder: str | Path) -> str:
     path = Path(folder)
     require_whole(path)
     campaign, rows = frozen(path), load(path)
-    swept = [name for name in rows.columns if _swept(str(name), campaign) and rows[name].nunique() > 1]
+    swept = swept_columns(rows, campaign)
     provenance = provenance_of(path)
     return finding_text(
         rows,
@@ -45,6 +47,11 @@ def finding(folder: str | Path) -> str:
             f"`fddbench finding` -->"
         ),
     )
+
+
+def swept_columns(rows: pd.DataFrame, campaign: Campaign) -> list[str]:
+    """Columns of the rows that hold what the grid or a sweep of a fault varies, of those that differ."""
+    return [str(name) for name in rows.columns if _swept(str(name), campaign) and rows[name].nunique() > 1]
 
 
 def _swept(name: str, campaign: Campaign) -> bool:

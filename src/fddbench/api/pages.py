@@ -4,7 +4,7 @@ from pathlib import Path
 
 from fddbench.api.report_data import report_data
 from fddbench.errors import FddbenchError, ResultsError
-from fddbench.reporting.page import write_page
+from fddbench.reporting.page.writing import write_page
 
 __all__ = ["report"]
 

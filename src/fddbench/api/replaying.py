@@ -143,4 +143,4 @@ def require_format(path: Path) -> None:
 
 def shown_in(source: "Campaign | str | Path") -> tuple[str, ...]:
     """Signals that the pictures of a campaign's benchmark show."""
-    return campaign_of(source).bench.shown
+    return campaign_of(source).shown

@@ -9,16 +9,23 @@ import pandas as pd
 import yaml
 
 from fddbench.api.bounds import bounds_of
+from fddbench.api.curves import operating_of
 from fddbench.api.detectability import detectable_of
+from fddbench.api.findings import swept_columns
 from fddbench.campaign.meaning import Campaign
 from fddbench.reporting.bands import names_in
-from fddbench.reporting.page import ReportData
+from fddbench.reporting.page.columns import NEEDS
+from fddbench.reporting.page.data import ReportData
+from fddbench.reporting.page.promises import promise_of
+from fddbench.reporting.page.traces import MOST_SCENARIOS
 from fddbench.reporting.published import iterations_for, published_for
 from fddbench.reporting.reasons import reason_table
 from fddbench.results.folder import provenance_of
-from fddbench.results.table import read_events, read_rows
+from fddbench.results.schema import rows_schema
+from fddbench.results.table import column_names, read_events, read_rows
 from fddbench.results.whole import holdings
 from fddbench.runner.assembling import assemble
+from fddbench.runner.assembly import Assembly
 from fddbench.runner.banded import bands_of
 from fddbench.runner.fingerprint import frozen, other_program
 from fddbench.runner.load import detector_load, in_words
@@ -38,15 +45,12 @@ def report_data(folder: Path) -> ReportData:
     FddbenchError
         No folder of results, or one that is damaged.
     """
-    provenance, rows, found = provenance_of(folder), read_rows(folder), holdings(folder)
+    provenance, found = provenance_of(folder), holdings(folder)
     campaign = frozen(folder)
     content: dict[str, Any] = {name: getattr(campaign, name) for name in _SETTINGS} | dict(campaign.choices)
     content |= yaml.safe_load(campaign.text)
     assembly, bench = assemble(campaign), campaign.bench
-    loads = {
-        name: in_words(detector_load(detector, assembly.loop.bus, timed=False))
-        for name, detector in assembly.detectors.items()
-    }
+    rows = read_rows(folder, _columns(folder))
     pictured = _pictured(rows, content)
     chosen = sampled_cases(pictured, seed=campaign.seed)
     return ReportData(
@@ -54,26 +58,14 @@ def report_data(folder: Path) -> ReportData:
         rows=rows,
         events=read_events(folder),
         provenance=_flat(provenance) | _replayed(folder, campaign),
-        designs=[
-            {
-                "name": d.name,
-                "kind": d.kind.name,
-                "source": d.source,
-                "about": d.about,
-                "sha256": d.sha256,
-                "load": loads[d.name],
-                "sees": assembly.detectors[d.name].sees,
-                "gamma": d.gamma,
-            }
-            for d in campaign.designs
-        ],
+        designs=_designs(campaign, assembly),
         recordings=list(
             replay_campaign(
                 campaign,
                 chosen,
                 seconds=_seconds(rows),
-                signals=bench.shown,
-                scenarios=list(pictured["scenario"].unique()),
+                signals=campaign.shown,
+                scenarios=list(chosen),
             )
         ),
         **_bands(campaign, pictured, content),
@@ -89,7 +81,28 @@ def report_data(folder: Path) -> ReportData:
         detectable=detectable_of(rows, campaign),
         bounds=bounds_of(campaign),
         consequences=assembly.consequences.announced,
+        swept=swept_columns(rows, campaign),
+        operating=operating_of(rows, campaign),
     )
+
+
+def _designs(campaign: Campaign, assembly: Assembly) -> list[dict[str, Any]]:
+    """What is said of each design."""
+    return [
+        {
+            "name": d.name, "kind": d.kind.name, "source": d.source, "about": d.about, "sha256": d.sha256, "gamma": d.gamma,
+            "load": in_words(detector_load(assembly.detectors[d.name], assembly.loop.bus, timed=False)),
+            "sees": assembly.detectors[d.name].sees,
+            "promise": promise_of(yaml.safe_load(d.text) or {}),
+        }
+        for d in campaign.designs
+    ]  # fmt: skip
+
+
+def _columns(folder: Path) -> list[str]:
+    """Columns that the page reads: those of every row, parameters, sizes of faults, gains, and consequences."""
+    scores = {field.name for field in rows_schema(())}
+    return [name for name in column_names(folder) if name in NEEDS or name not in scores]
 
 
 def _replayed(folder: Path, campaign: Campaign) -> dict[str, str]:
@@ -99,17 +112,25 @@ def _replayed(folder: Path, campaign: Campaign) -> dict[str, str]:
 
 
 def _pictured(rows: pd.DataFrame, content: Mapping[str, Any]) -> pd.DataFrame:
-    """Rows of the scenarios whose signals are shown."""
-    named = (content.get("report") or {}).get("scenarios")
-    return rows[np.asarray(rows["scenario"].isin(named), dtype=bool)] if named else rows
+    """Rows of the scenarios whose signals are shown: those that the campaign names, else those that go worst."""
+    named = (content.get("report") or {}).get("scenarios") or _worst_scenarios(rows)
+    return rows[np.asarray(rows["scenario"].isin(named), dtype=bool)]
+
+
+def _worst_scenarios(rows: pd.DataFrame) -> list[str]:
+    """So many scenarios as a page shows, those with the largest share of failed rows; in the order of the campaign."""
+    failed = rows["outcome"].isin(["false_alarm", "wrong_site", "late", "missed"]).astype("float64")
+    shares = failed.groupby(rows["scenario"], sort=False).mean().sort_values(ascending=False, kind="stable")
+    chosen = set(shares.index[:MOST_SCENARIOS])
+    return [str(name) for name in rows["scenario"].unique() if name in chosen]
 
 
 def _bands(campaign: Campaign, rows: pd.DataFrame, content: Mapping[str, Any]) -> dict[str, Any]:
     """Bands of all flights, where the campaign asks for them, and what goes on their pictures."""
-    bench, responses = campaign.bench, tuple(getattr(campaign.plant, "responses", ()))
-    found: dict[str, Any] = {"responses": responses, "shown": bench.shown}
+    shown, responses = campaign.shown, tuple(getattr(campaign.plant, "responses", ()))
+    found: dict[str, Any] = {"responses": responses, "shown": shown}
     if (content.get("report") or {}).get("bands"):
-        names = names_in(responses, bench.shown)
+        names = names_in(responses, shown)
         found["bands"] = list(bands_of(campaign, rows, signals=names, seconds=_seconds(rows)))
     return found
 

@@ -8,8 +8,10 @@ import numpy as np
 import pyarrow as pa
 
 from fddbench.errors import FddbenchError
+from fddbench.results.folder import provenance_of
 from fddbench.results.inspection import wrong_with
 from fddbench.results.manifest import shards
+from fddbench.results.stages import Numbering
 from fddbench.results.table import read_rows
 from fddbench.runner.assembling import assemble
 from fddbench.runner.fingerprint import frozen, other_program
@@ -77,7 +79,8 @@ def verify(
         return found
     campaign = frozen(path)
     found.other_program = other_program(path, campaign)
-    held = np.array(sorted(set().union(*(shard.numbers for shard in shards(path)))), dtype=np.int64)
+    numbering = Numbering(provenance_of(path))
+    held = np.flatnonzero(numbering.held(shards(path)).all(axis=0))
     chosen = np.sort(np.random.default_rng(seed).choice(held, min(refly, len(held)), replace=False))
     flyer = rehearsed(Flyer(assemble(campaign)), notice)
     there = read_rows(path)

@@ -77,7 +77,7 @@ OPERATIONS: dict[str, Operation] = {
     "rarely": Operation("a, which is seldom true", 1, 0, "{0}", rarely, "b", "b"),
     "fraction": Operation("significand of a, 0.5 .. 1", 1, 2, "fdd_fraction({0})", fraction, "f"),
     "exponent": Operation("power of two of a", 1, 3, "fdd_exponent({0})", exponent, "f"),
-    "power_of_two": Operation("two to the whole power a", 1, 2, "ldexp(1.0, (int){0})", power_of_two, "f"),
+    "power_of_two": Operation("two to the whole power a", 1, 2, "fdd_power_of_two({0})", power_of_two, "f"),
     "pick": Operation("argument number a of the rest", -1, 1, "fdd_pick({0}, {rest})", pick, "f"),
     "locate": Operation(
         "how many of the rising knots lie at or below a", 1, 4, "fdd_locate({table}, {0})", locate, "f"

@@ -59,7 +59,17 @@ def describe(
         plan, seconds_per_flight_step=seconds_per_flight_step, overhead_s=overhead_s, chunk=chunk, jobs=jobs
     )
     told = [fill(note, _WIDTH, initial_indent="  ", subsequent_indent="    ") for note in notes]
-    parts = [*_head(plan.campaign), "", *_table(plan), "", *_rest(plan), *told, "", *_bill(plan, seconds, jobs)]
+    parts = [
+        *_head(plan.campaign),
+        "",
+        *_table(plan),
+        "",
+        *_logs(plan),
+        *_rest(plan),
+        *told,
+        "",
+        *_bill(plan, seconds, jobs),
+    ]
     return "\n".join(parts)
 
 
@@ -95,6 +105,26 @@ def _table(plan: Plan) -> Iterator[str]:
             f"fault from its own onset: {', '.join(apart)}"
         )
         yield fill(text, _WIDTH)
+
+
+def _logs(plan: Plan) -> Iterator[str]:
+    """What there is to say of logs, where some are flown."""
+    notes: Any = getattr(plan.plant, "notes", None)
+    if notes is not None:
+        yield "Logs"
+        for name, said in notes(plan.campaign.sample_s).items():
+            yield fill(f"{name}: {said}", _WIDTH, initial_indent="  ", subsequent_indent="    ")
+        yield from _unflown(plan)
+
+
+def _unflown(plan: Plan) -> Iterator[str]:
+    """Logs that no case flies."""
+    parameter, given = plan.plant.parameters[0], plan.campaign.dispersions
+    flown = {*given.grid.get("log", ()), *given.sequence.get("log", ()), *plan.campaign.table.get("log", ())} or {1.0}
+    left = [number for number in range(1, int(parameter.high) + 1) if number not in flown]
+    if left:
+        every = list(range(1, int(parameter.high) + 1))
+        yield f"  not flown: {', '.join(map(str, left))}; every log is with `dispersions: {{grid: {{log: {every}}}}}`"
 
 
 def _begin_apart(scenario: PlannedScenario) -> bool:

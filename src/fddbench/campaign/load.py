@@ -127,7 +127,9 @@ def _content(
     beside: Mapping[str, bytes],
 ) -> dict[str, Any]:
     """Everything that decides rows, as plain data."""
-    content: dict[str, Any] = written.model_dump(mode="json", exclude={"about", "scenarios", "report"}) | dict(choices)
+    content: dict[str, Any] = written.model_dump(
+        mode="json", exclude={"about", "scenarios", "report", "requirements"}
+    ) | dict(choices)
     content["scenarios"] = [
         entry.model_dump(mode="json")
         | {"faults": [fault.model_dump(mode="json", by_alias=True) for fault in faults[number]]}
@@ -146,4 +148,15 @@ def _content(
     return content
 
 
-_AS_WRITTEN = ("name", "about", "benchmark", "purpose", "seed", "sample_s", "substeps", "duration_s", "dispersions")
+_AS_WRITTEN = (
+    "name",
+    "about",
+    "benchmark",
+    "purpose",
+    "seed",
+    "sample_s",
+    "substeps",
+    "duration_s",
+    "dispersions",
+    "requirements",
+)

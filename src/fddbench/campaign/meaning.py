@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from fddbench.campaign.rules.model import Dispersions, Purpose, ScenarioEntry
+from fddbench.campaign.rules.model import Dispersions, Purpose, RequirementEntry, ScenarioEntry
 from fddbench.designs.design import Design
 from fddbench.faults.specification import FaultSpecification
 from fddbench.interfaces import Benchmark, Floats, Plant
@@ -52,6 +52,8 @@ class Campaign:
         Detectors in the order of the file.
     reconfigure, reconfigure_where : str
         Name of the detector on whose declarations the aircraft acts, "" for none, and where the file says so.
+    requirements : tuple of RequirementEntry
+        What is required of its detectors; no part of any row.
     text : str
         Canonical YAML of the campaign with all overrides; `read_campaign` reads it back to the same campaign.
     table : mapping of str to (n_rows,) array
@@ -59,7 +61,7 @@ class Campaign:
     beside : mapping of str to bytes
         Files beside the campaign that its kinds come from.
     sha256 : str
-        Of the meaning without `about`, of the designs and of the files: equal hashes give equal rows.
+        Of the meaning without `about` and what is required, of the designs and of the files: equal hashes give equal rows.
     """
 
     path: Path
@@ -80,10 +82,17 @@ class Campaign:
     designs: tuple[Design, ...]
     reconfigure: str
     reconfigure_where: str = field(repr=False)
+    requirements: tuple[RequirementEntry, ...]
     text: str = field(repr=False)
     table: Mapping[str, Floats] = field(repr=False)
     beside: Mapping[str, bytes] = field(repr=False)
     sha256: str
+
+    @property
+    def shown(self) -> tuple[str, ...]:
+        """Signals in the pictures of its flights: of what flies, where that says so, else of the benchmark."""
+        own: tuple[str, ...] = getattr(self.plant, "shown", self.bench.shown)
+        return own
 
     @property
     def in_sample(self) -> tuple[str, ...]:

@@ -168,7 +168,17 @@ class Plan:
         for s in np.unique(at.scenario).tolist():
             mine = at.scenario == s
             found[mine] = np.array(self.scenarios[s].samples)[at.level[mine]]
+        longest_s = getattr(self.plant, "longest_s", None)
+        if longest_s is not None:
+            whole = np.floor(longest_s(self.parameters(cases)) / self.campaign.sample_s + 1e-6)
+            found = np.minimum(found, whole.astype(np.int64) + 1)
         return found
+
+    @property
+    def n_labelled(self) -> int:
+        """The most faults that a flight brings with it, because they are in what flies."""
+        count = getattr(self.plant, "n_labelled", None)
+        return 0 if count is None else int(count())
 
     def names(self, cases: npt.ArrayLike) -> tuple[str, ...]:
         """Names of cases, ``jam_a/3/0/17``."""

@@ -33,6 +33,8 @@ def flight_s(
 ) -> float:
     """Length of a flight [s]: as given, else long enough to find the last fault, else that of the manoeuvre.
 
+    What was recorded is no longer than that, and a flight of a shorter log ends with it.
+
     Where an onset is drawn, the latest that can be drawn counts, so all runs are equally long.
 
     Parameters
@@ -47,4 +49,6 @@ def flight_s(
     if not faults:
         return plant.manoeuvres[manoeuvre]
     limit = requirement_s(faults, plant.sites, override_s=override_s)
-    return max(map(latest_onset_s, faults)) + limit + AFTER_LIMIT_S
+    enough = max(map(latest_onset_s, faults)) + limit + AFTER_LIMIT_S
+    # what was recorded is over at its end
+    return min(enough, plant.manoeuvres[manoeuvre]) if hasattr(plant, "longest_s") else enough

@@ -1,22 +1,18 @@
 """The arguments of all commands."""
 
 import argparse
-from collections.abc import Callable
-from inspect import cleandoc
 from pathlib import Path
-from textwrap import fill
 
 from fddbench import __version__
-from fddbench.cli import aircraft, commands, completing, counting, designing, looking
+from fddbench.cli import aircraft, commands, completing, counting, data_sets, designing, exporting, looking, requiring
+from fddbench.cli.added import add
 from fddbench.cli.checked_numbers import flights as _flights
 from fddbench.cli.checked_numbers import jobs as _jobs
 from fddbench.cli.checked_numbers import probability as _probability
 from fddbench.cli.checked_numbers import share as _share
+from fddbench.cli.folder_arguments import growing_arguments, looking_arguments, trusting, verify_arguments
 
 __all__ = ["parser"]
-
-_WIDTH = 78
-"""Columns of help: those of a terminal of 80, less what argparse keeps free."""
 
 
 def parser() -> argparse.ArgumentParser:
@@ -24,12 +20,49 @@ def parser() -> argparse.ArgumentParser:
     top = argparse.ArgumentParser(
         prog="fddbench",
         description="Monte-Carlo benchmark campaigns for aerospace fault detection and diagnosis.",
-        epilog="Exit codes: 0 done, 1 done but some cases failed, 2 a mistake in what you wrote, 130 interrupted.",
+        epilog="Exit codes: 0 done, 1 done but some cases failed or a requirement is not met, 2 a mistake in what you wrote, "
+        "74 a disk that is full or fails, 130 interrupted (Ctrl-C), 143 ended from outside (SIGTERM).",
     )
     top.add_argument("--version", action="version", version=f"fddbench {__version__}")
     subs = top.add_subparsers(metavar="COMMAND")
 
-    run = _add(subs, "run", commands.run)
+    _running(add(subs, "run", commands.run))
+    _reading(subs)
+    looking_arguments(subs)
+    verify_arguments(add(subs, "verify", looking.verify))
+    growing_arguments(subs)
+
+    _counting(subs)
+    cost = add(subs, "cost", commands.cost)
+    cost.add_argument("detector", metavar="DETECTOR", help="name of a design")
+    cost.add_argument(
+        "--campaign",
+        type=Path, metavar="CAMPAIGN.yaml",
+        help="campaign whose benchmark and sample time count (default: the first shipped one that feeds it)",
+    )  # fmt: skip
+
+    exporting.arguments(add(subs, "export", exporting.export))
+    data = add(subs, "dataset", data_sets.dataset)
+    _campaign(data)
+    data_sets.dataset_arguments(data)
+    _bound(add(subs, "bound", commands.bound))
+
+    check = add(subs, "check", commands.check)
+    _campaign(check)
+
+    design = add(subs, "design", designing.design)
+    design.add_argument("design", type=Path, metavar="FILE", help="design file with a recipe")
+    design.add_argument("--output", type=Path, metavar="FILE", help="where to write the design (default: print it)")
+    design.add_argument("--force", action="store_true", help="replace the file when it exists")
+    _tune(add(subs, "tune", designing.tune))
+
+    _modes(add(subs, "modes", aircraft.modes))
+    _asking(subs)
+    completing.attach(top)
+    return top
+
+
+def _running(run: argparse.ArgumentParser) -> None:
     run.add_argument(
         "campaigns", type=Path, nargs="+", metavar="CAMPAIGN.yaml", help="campaign files, or names of shipped ones"
     )
@@ -47,76 +80,29 @@ def parser() -> argparse.ArgumentParser:
     )  # fmt: skip
     run.add_argument("--quiet", action="store_true", help="no progress")
     run.add_argument("--wide", action="store_true", help="every column of the table, as wide as it is")
-
-    _reading(subs)
-    _looking(subs)
-    _verify(_add(subs, "verify", looking.verify))
-
-    _counting(subs)
-    cost = _add(subs, "cost", commands.cost)
-    cost.add_argument("detector", metavar="DETECTOR", help="name of a design")
-    cost.add_argument(
-        "--campaign",
-        type=Path, metavar="CAMPAIGN.yaml",
-        help="campaign whose benchmark and sample time count (default: the first shipped one that feeds it)",
-    )  # fmt: skip
-
-    _bound(_add(subs, "bound", commands.bound))
-
-    check = _add(subs, "check", commands.check)
-    _campaign(check)
-
-    design = _add(subs, "design", designing.design)
-    design.add_argument("design", type=Path, metavar="FILE", help="design file with a recipe")
-    design.add_argument("--output", type=Path, metavar="FILE", help="where to write the design (default: print it)")
-    design.add_argument("--force", action="store_true", help="replace the file when it exists")
-    _tune(_add(subs, "tune", designing.tune))
-
-    _modes(_add(subs, "modes", aircraft.modes))
-    _asking(subs)
-    completing.attach(top)
-    return top
-
-
-def _add(subs, name: str, command: Callable[[argparse.Namespace], int]) -> argparse.ArgumentParser:  # type: ignore[no-untyped-def]
-    paragraphs = cleandoc(command.__doc__ or "").split("\n\n")
-    text = "\n\n".join(fill(" ".join(each.split()), _WIDTH) for each in paragraphs)
-    added: argparse.ArgumentParser = subs.add_parser(
-        name,
-        help=paragraphs[0].replace("%", "%%"),
-        description=text,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    added.set_defaults(command=command)
-    return added
+    requiring.arguments(run)
 
 
 def _reading(subs) -> None:  # type: ignore[no-untyped-def]
     """Commands that read a folder of results."""
-    report = _add(subs, "report", commands.report)
+    report = add(subs, "report", commands.report)
     report.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
     report.add_argument("--output", type=Path, metavar="FILE", help="page to write (default: DIR/report.html)")
 
-    _trusting(report)
+    trusting(report)
 
-    scores = _add(subs, "scores", commands.scores)
+    scores = add(subs, "scores", commands.scores)
     scores.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
-    _trusting(scores)
+    trusting(scores)
 
-    finding = _add(subs, "finding", commands.finding)
+    finding = add(subs, "finding", commands.finding)
     finding.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
-    _trusting(finding)
-
-
-def _trusting(command: argparse.ArgumentParser) -> None:
-    command.add_argument(
-        "--trust", action="store_true", help="run plug-ins in DIR, now and later, though never flown from here"
-    )
+    trusting(finding)
 
 
 def _counting(subs) -> None:  # type: ignore[no-untyped-def]
     """Commands that count and compare."""
-    table = _add(subs, "table", counting.table)
+    table = add(subs, "table", counting.table)
     table.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
     table.add_argument(
         "--format", choices=counting.FORMATS, default="markdown", help="what to write it as (default: markdown)"
@@ -126,11 +112,11 @@ def _counting(subs) -> None:  # type: ignore[no-untyped-def]
     )
     table.add_argument("--output", type=Path, metavar="FILE", help="file to write (default: print it)")
 
-    pod = _add(subs, "pod", counting.pod)
+    pod = add(subs, "pod", counting.pod)
     pod.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
     pod.add_argument("--size", default="", metavar="COLUMN", help="size of the fault (default: every one that differs)")
 
-    compare = _add(subs, "compare", counting.compare)
+    compare = add(subs, "compare", counting.compare)
     compare.add_argument("folder", type=Path, metavar="A", help="folder of results")
     compare.add_argument("other", type=Path, nargs="?", metavar="B", help="another one (default: A itself)")
     compare.add_argument(
@@ -143,62 +129,27 @@ def _counting(subs) -> None:  # type: ignore[no-untyped-def]
     )  # fmt: skip
 
 
-def _looking(subs) -> None:  # type: ignore[no-untyped-def]
-    """Commands that look at single flights."""
-    replay = _add(subs, "replay", looking.replay)
-    replay.add_argument("source", type=Path, metavar="DIR", help="folder of results, or a campaign")
-    replay.add_argument("case", metavar="CASE", help="name of the flight as in the column case, jam_a/3/0/17")
-    replay.add_argument(
-        "--detector", action="append", default=[], metavar="NAME", help="show this detector alone (may be repeated)"
-    )
-    replay.add_argument(
-        "--signal",
-        action="append",
-        default=[],
-        metavar="NAME",
-        help="draw this signal (may be repeated; default: a few)",
-    )
-    replay.add_argument("--plot", type=Path, metavar="FILE", help="picture to write: .html, .png, .svg or .pdf")
-    replay.add_argument("--to", type=Path, metavar="FILE", help="table to write: .csv, .parquet, .mat or .h5")
-    _trusting(replay)
-
-    worst = _add(subs, "worst", looking.worst)
-    worst.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
-    worst.add_argument(
-        "--detector", action="append", default=[], metavar="NAME", help="this detector alone (may be repeated)"
-    )
-    worst.add_argument(
-        "--most", type=_jobs, default=3, metavar="N", help="flights of a kind in a scenario (default: 3)"
-    )
-
-
-def _verify(command: argparse.ArgumentParser) -> None:
-    command.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
-    command.add_argument("--refly", type=_flights, default=0, metavar="N", help="fly so many of its flights again")
-    command.add_argument(
-        "--seed", type=int, metavar="N", help="of the draw of these flights (default: another every time)"
-    )
-    _trusting(command)
-
-
 def _asking(subs) -> None:  # type: ignore[no-untyped-def]
     """Commands that tell what there is, and that give something to start from."""
-    ask = _add(subs, "list", commands.list_)
+    ask = add(subs, "list", commands.list_)
     ask.add_argument(
         "subject", nargs="?", default="", metavar="SUBJECT",
         help="name of a benchmark, or benchmarks, faults, voters, detectors, campaigns, designs (default: everything)",
     )  # fmt: skip
-    init = _add(subs, "init", commands.init)
+    init = add(subs, "init", commands.init)
     init.add_argument("folder", type=Path, nargs="?", default=Path(), metavar="DIR", help="where to (default: here)")
-    names = "[--detector NAME | --benchmark NAME |\n                     --fault NAME | --campaign NAME]"
+    names = (
+        "[--detector NAME | --trained NAME |\n                     --benchmark NAME | --fault NAME | --campaign NAME]"
+    )
     init.usage = f"fddbench init [-h] [DIR] {names}"  # argparse does not break a group
     one = init.add_mutually_exclusive_group()
-    for what in ("detector", "benchmark", "fault", "campaign"):
-        one.add_argument(f"--{what}", metavar="NAME", help=f"a small {what} of your own, and a campaign that flies it")
-    schema = _add(subs, "schema", commands.schema)
+    for what in ("detector", "trained", "benchmark", "fault", "campaign"):
+        said = "detector that is trained on labelled flights" if what == "trained" else f"{what} of your own"
+        one.add_argument(f"--{what}", metavar="NAME", help=f"a small {said}, and a campaign that flies it")
+    schema = add(subs, "schema", commands.schema)
     schema.add_argument("subject", nargs="?", default="", metavar="BENCHMARK", help="name of a benchmark, or designs")
     schema.add_argument("--output", type=Path, metavar="FILE", help="file to write (default: print it)")
-    completion = _add(subs, "completion", completing.completion)
+    completion = add(subs, "completion", completing.completion)
     completion.add_argument("shell", choices=completing.SHELLS, help="bash, zsh or fish")
 
 

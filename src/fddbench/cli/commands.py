@@ -5,14 +5,15 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from fddbench.cli.requiring import all_pass, require_stated
 from fddbench.errors import FddbenchError
 
 if TYPE_CHECKING:
     import pandas as pd
 
-    from fddbench.runner.assembly import Assembly
+    from fddbench.runner.run import RunReport
 
-__all__ = ["bound", "check", "cost", "finding", "init", "list_", "report", "run", "schema", "scores"]
+__all__ = ["bound", "check", "cost", "finding", "init", "list_", "report", "run", "schema", "scores", "told"]
 
 
 _INTERRUPTED = 130
@@ -22,12 +23,14 @@ def run(args: argparse.Namespace) -> int:
     """Fly campaigns and write their tables.
 
     Goes on where an earlier run of the same campaign stopped. Ctrl-C stops after saving what is finished. Of several campaigns
-    one with a mistake does not keep the others from flying; the exit code is the worst of theirs.
+    one with a mistake does not keep the others from flying; the exit code is the worst of theirs. What a campaign requires is
+    judged; with --require the run ends with 1 unless all of it is shown to be met.
     """
     if len(args.campaigns) == 1:
         return _run(args.campaigns[0], args)
-    if args.out is not None:
-        raise FddbenchError("--out names the folder of one campaign; several go into results/<name of each>")
+    for option, what in (("out", "folder"), ("junit", "verdicts")):
+        if getattr(args, option) is not None:
+            raise FddbenchError(f"--{option} names the {what} of one campaign; several go into results/<name of each>")
     codes: dict[Path, int] = {}
     for path in args.campaigns:
         print(f"== {path}")
@@ -39,7 +42,7 @@ def run(args: argparse.Namespace) -> int:
         if codes[path] == _INTERRUPTED:
             return _INTERRUPTED
         print()
-    words = {0: "done", 1: "done, some flights failed", 2: "not flown, see above"}
+    words = {0: "done", 1: "done, some flights failed or requirements not met", 2: "not flown, see above"}
     width = max(len(str(path)) for path in codes)
     for path, code in codes.items():
         print(f"{path!s:<{width}}  {words[code]}")
@@ -52,6 +55,8 @@ def _run(path: Path, args: argparse.Namespace) -> int:
     from fddbench.cli.progress import shown
 
     campaign = campaigns.read(path, args.overrides)
+    if args.require or args.junit:
+        require_stated(campaign, "--require" if args.require else "--junit")
     kept: list[tuple[pd.DataFrame, pd.DataFrame]] = []
     with shown(campaign.name, quiet=args.quiet) as progress:
         report = campaigns.run(
@@ -64,6 +69,20 @@ def _run(path: Path, args: argparse.Namespace) -> int:
             notice=lambda text: print(f"fddbench: {text}", file=sys.stderr),
             summarised=lambda *tables: kept.append(tables),
         )
+    return told(report, kept, wide=args.wide, require=args.require, junit=args.junit)
+
+
+def told(
+    report: "RunReport",
+    kept: "list[tuple[pd.DataFrame, pd.DataFrame]]",
+    *,
+    wide: bool,
+    require: bool = False,
+    junit: Path | None = None,
+) -> int:
+    """Print how a run ended, its tables and the verdicts on what its campaign requires; exit code of the command."""
+    from fddbench.results.folder import provenance_of
+
     folder = report.folder
     if report.interrupted:
         done = report.continued + report.flights
@@ -73,11 +92,14 @@ def _run(path: Path, args: argparse.Namespace) -> int:
             file=sys.stderr,
         )
         return _INTERRUPTED
-    _summary(folder, kept[0], wide=args.wide, failed=report.failed_rows > 0)
+    _summary(folder, kept[0], wide=wide, failed=report.failed_rows > 0)
+    passed = all_pass(folder, junit=junit, job=require)
     again = f", {report.continued} found done" if report.continued else ""
     print(f"\n{report.flights} flights flown{again} in {report.wall_s:.1f} s; results in {folder}")
+    logs: dict[str, str] = provenance_of(folder).get("logs", {})
+    print("".join(f"log {name}: {said}\n" for name, said in logs.items()), end="")
     print(f"next: fddbench report {folder}")
-    return 1 if report.failed_rows else 0
+    return 1 if report.failed_rows or (require and not passed) else 0
 
 
 def _summary(folder: Path, tables: "tuple[pd.DataFrame, pd.DataFrame]", *, wide: bool, failed: bool) -> None:
@@ -178,45 +200,15 @@ def cost(args: argparse.Namespace) -> int:
     code on this machine.
     """
     from fddbench.runner.load import detector_load, in_words
+    from fddbench.runner.single import assembly_with
 
-    assembly = _assembly_with(args.detector, args.campaign)
+    assembly = assembly_with(args.detector, args.campaign)
     load = detector_load(assembly.detectors[args.detector], assembly.loop.bus)
     print(f"{args.detector}, at {assembly.loop.bus.sample_s} s: {in_words(load)}")
     if load.cost is not None:
         for name, number in load.cost.operations.items():
             print(f"  {name:<12}{number:>6}")
     return 0
-
-
-def _assembly_with(detector: str, campaign: Path | None) -> "Assembly":
-    """Assembly of a campaign with a design, or with a variant of one that the campaign sweeps."""
-    from dataclasses import replace
-
-    from fddbench.campaign.load import read_campaign
-    from fddbench.runner.assembling import assemble
-
-    own = read_campaign(campaign) if campaign else None
-    swept = [design for design in own.designs if design.name == detector and design.swept] if own else []
-    if own is None or not swept:
-        return _one_detector(detector, campaign)
-    return assemble(replace(own, designs=tuple(swept), reconfigure=""))
-
-
-def _one_detector(design: str, campaign: Path | None) -> "Assembly":
-    """Assembly of a campaign with one detector; without a campaign the first shipped one whose benchmark feeds it."""
-    from fddbench import gallery
-    from fddbench.campaign.load import read_campaign
-    from fddbench.runner.assembling import assemble
-
-    shipped = [Path("smoke"), *(Path(path.stem) for path in sorted(gallery.folder("campaigns").glob("*.yaml")))]
-    first: FddbenchError | None = None
-    for path in [campaign] if campaign else shipped:
-        try:
-            return assemble(read_campaign(path, [f"detectors=[{design}]"]))
-        except FddbenchError as error:
-            first = first or error
-    assert first is not None
-    raise first
 
 
 def check(args: argparse.Namespace) -> int:
@@ -243,7 +235,9 @@ def list_(args: argparse.Namespace) -> int:
 
 
 def init(args: argparse.Namespace) -> int:
-    """Write files to start from: a detector, benchmark, fault or campaign of your own, or copies of the shipped ones.
+    """Write files to start from: of your own or copies of the shipped ones.
+
+    A detector, one that is trained, a benchmark, a fault or a campaign. `--benchmark recorded` writes logs and what maps them.
 
     What is there already is left alone.
     """
@@ -254,7 +248,8 @@ def init(args: argparse.Namespace) -> int:
         if name is not None:
             written = start(args.folder, what, name)
             print(*written, sep="\n")
-            print(f"next: fddbench run {written[-1]}")
+            first = f"python {args.folder / 'detectors' / f'train_{name}.py'}, then " if what == "trained" else ""
+            print(f"next: {first}fddbench run {written[-1]}")
             return 0
     for path in copy_shipped(args.folder):
         print(path)

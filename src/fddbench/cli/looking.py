@@ -16,7 +16,8 @@ def replay(args: argparse.Namespace) -> int:
     """
     from fddbench.api.replaying import replay as fly
     from fddbench.api.replaying import require_format, shown_in, write_table
-    from fddbench.reporting.flight_picture import declarations, require_picture, write_picture
+    from fddbench.reporting.declarations import declarations
+    from fddbench.reporting.flight_picture import require_picture, write_picture
 
     if args.plot:
         require_picture(args.plot)

@@ -1,16 +1,29 @@
-"""Commands of fddbench. Exit codes: 0 done, 1 done but some cases failed, 2 a mistake in what the user wrote."""
+"""Commands of fddbench.
 
+Exit codes: 0 done, 1 done but some cases failed, 2 a mistake in what the user wrote, 74 a disk that is full or fails, 130
+interrupted, 143 ended from outside.
+"""
+
+import errno
 import os
+import signal
 import sys
+import threading
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from io import TextIOWrapper
 from pathlib import Path
+from types import FrameType
 from typing import Any
 
 from fddbench.cli.arguments import parser
 from fddbench.errors import FddbenchError, ResultsWarning
 
 __all__ = ["entry", "main", "parser"]
+
+_INTERRUPTED, _TERMINATED, _DISK = 130, 143, 74
+_DISK_ERRORS = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS}
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -23,14 +36,15 @@ def main(argv: list[str] | None = None) -> int:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")  # a file's name may hold what a terminal cannot print
+    ended: list[int] = []
     try:
-        with warnings.catch_warnings():
+        with warnings.catch_warnings(), _termination(ended):
             _say_in_words()
             if getattr(args, "trust", False):
                 _trust(args.source if "source" in args else args.folder)
             code: int = args.command(args)
         sys.stdout.flush()
-        return code
+        return _TERMINATED if ended and code == _INTERRUPTED else code
     except FddbenchError as error:
         print(f"fddbench: {error}", file=sys.stderr)
         return 2
@@ -41,10 +55,29 @@ def main(argv: list[str] | None = None) -> int:
     except OSError as error:
         place = f"{error.filename}: " if error.filename else ""
         print(f"fddbench: {place}{error.strerror or error}; what is finished is kept, run again", file=sys.stderr)
-        return 2
+        return _DISK if error.errno in _DISK_ERRORS else 2
     except KeyboardInterrupt:
-        print("fddbench: interrupted", file=sys.stderr)
-        return 130
+        print(f"fddbench: {'ended from outside' if ended else 'interrupted'}", file=sys.stderr)
+        return _TERMINATED if ended else _INTERRUPTED
+
+
+@contextmanager
+def _termination(ended: list[int]) -> Iterator[None]:
+    """End at SIGTERM as at Ctrl-C, what is finished saved; `ended` then has the number of the signal."""
+
+    def end(number: int, frame: FrameType | None) -> None:
+        ended.append(number)
+        signal.default_int_handler(number, frame)  # not by a statement: that would be a detector's own
+
+    try:
+        before = signal.signal(signal.SIGTERM, end)
+    except ValueError:  # not the main thread
+        yield
+        return
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def _trust(folder: Path) -> None:
@@ -75,4 +108,10 @@ def entry() -> None:
         answer(parser())
     # what is freed goes back to the system: a tenth less memory for tables of many rows
     os.environ.setdefault("ARROW_DEFAULT_MEMORY_POOL", "system")
-    sys.exit(main())
+    code = main()
+    if code and any(thread.daemon for thread in threading.enumerate()):
+        # threads that still fly would meet an interpreter that is taken down, and abort the process instead of this code
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(code)
+    sys.exit(code)

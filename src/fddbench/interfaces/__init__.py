@@ -21,12 +21,14 @@ from fddbench.interfaces.detector import Detector, Tunable, Verdict, Voter
 from fddbench.interfaces.fault import Fault, FaultBlock, Instant
 from fddbench.interfaces.floats import NEVER, Floats
 from fddbench.interfaces.ideal import IdealModel
+from fddbench.interfaces.logged_faults import IN_LOG, LoggedFaults
 from fddbench.interfaces.loop import FlightFaults, Flights, Loop, Prepared, Sample
 from fddbench.interfaces.recording import QUANTILES, Bands, Recording
 from fddbench.interfaces.scheduling import AffineModel, Channel, Scheduling
 from fddbench.interfaces.site import Site
 
 __all__ = [
+    "IN_LOG",
     "NEVER",
     "QUANTILES",
     "AffineModel",
@@ -45,6 +47,7 @@ __all__ = [
     "Floats",
     "IdealModel",
     "Instant",
+    "LoggedFaults",
     "Loop",
     "Options",
     "Parameter",

@@ -34,6 +34,8 @@ class Parameter:
         Where a campaign does not disperse it.
     low, high : float
         What a campaign may ask for, in the unit of the name.
+    whole : bool
+        A number that counts: whole, and listed in a grid or a sequence, never drawn.
     """
 
     name: str
@@ -41,6 +43,7 @@ class Parameter:
     default: float
     low: float
     high: float
+    whole: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,7 +63,8 @@ class Choice:
         What a member of that family must have.
     reads : callable, optional
         Makes an option of a YAML file beside the campaign that is named instead (``plant: mine.yaml``), from its path; raises
-        FddbenchError for one that is none. None: files of data are nothing to choose here.
+        FddbenchError for one that is none. None: files of data are nothing to choose here. An option that stands on
+        more files has them as ``files``, content by name in the folder of its own.
     says : mapping of str to str
         What each option is, for those that do not say so themselves (by an ``about``).
     """
@@ -143,6 +147,11 @@ class Plant(Protocol):
 
     For the report it may have ``responses``, the `Response` panels of the pictures of its flights, where a campaign asks for
     bands (what the benchmark shows).
+
+    One that flies what was recorded may have more: ``longest_s(parameters)``, how long flights last, (n_cases,) [s], none
+    longer than ``manoeuvres`` say; ``labelled(parameters, sample_s)``, the `LoggedFaults` faults that are in what it flies, and
+    ``n_labelled()``, the most that a flight has; ``notes(sample_s)``, what there is to say of each log; ``files``, what
+    besides an option of data travels with a campaign, by name beside that option; ``shown``, instead of the benchmark's.
     """
 
     sites: tuple[Site, ...]

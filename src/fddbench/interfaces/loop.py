@@ -111,6 +111,8 @@ class Loop(Protocol):
     **Consequences.** A loop may announce ``consequences``, a tuple of `fddbench.interfaces.Consequence`: what faults do to the
     aircraft, numbers of its true signals. Each becomes a column of the rows; a loop without them has none.
 
+    **Size.** A loop may say by ``in_python``, a sentence, that it is too large to be compiled; "" or nothing: it is not.
+
     **Reconfiguration.** A loop with ``reconfigures = True`` can act on what a detector declares: its step takes a keyword
     ``declared=None`` besides. Where a campaign says ``reconfigure: NAME``, it is called with (n_sites, n_cases) rows in the
     order of the bus: 1 where that detector declared a site at the sample before, else 0; all 0 at sample 0, and always 0 at

@@ -29,7 +29,7 @@ from fddbench.errors import FddbenchError
 from fddbench.interfaces import Floats
 from fddbench.metrics.intervals import beta_interval
 
-__all__ = ["PooledShare", "korn_graubard", "quantile_ratio", "sums_by_run"]
+__all__ = ["PooledShare", "korn_graubard", "pooled_intervals", "quantile_ratio", "sums_by_run"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -136,6 +136,48 @@ def _effective_trials(y_g: Floats, n_g: Floats) -> float:
     if min(np.count_nonzero(y_g > 0), np.count_nonzero(y_g < n_g)) < 3:
         effective = min(effective, float(n_runs))
     return effective
+
+
+def pooled_intervals(hits: Floats, trials: Floats, confidence: float = 0.95) -> tuple[Floats, Floats]:
+    """Intervals of `korn_graubard` of many shares of the same runs at once; NaN where fewer than two runs have a row.
+
+    Parameters
+    ----------
+    hits, trials : (n_runs, n_shares) arrays
+        Rows of each run that count, and all of them.
+    confidence : float
+        Between 0 and 1 [-].
+
+    Returns
+    -------
+    low, high : (n_shares,) arrays
+        Ends of the intervals [-].
+
+    Examples
+    --------
+    >>> low, high = pooled_intervals(np.array([[1.0, 1.0]] * 3 + [[0.0, 1.0]]), np.ones((4, 2)))
+    >>> low.round(3).tolist(), high.round(3).tolist()
+    ([0.194, 0.398], [0.994, 1.0])
+    """
+    from scipy.special import stdtrit
+
+    n_runs, n = (trials > 0).sum(axis=0).astype(np.float64), trials.sum(axis=0)
+    low, high = np.full(hits.shape[1], np.nan), np.full(hits.shape[1], np.nan)
+    several = n_runs > 1
+    if not several.any():
+        return low, high
+    y_g, n_g, g, n = hits[:, several], trials[:, several], n_runs[several], n[several]
+    y = y_g.sum(axis=0)
+    p = y / n
+    v = g / (g - 1.0) * (((y_g * n - n_g * y) / n**2) ** 2).sum(axis=0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        effective = np.where((v == 0.0) | (n == g), n, np.minimum(p * (1.0 - p) / v, n))
+    few = np.minimum((y_g > 0).sum(axis=0), (y_g < n_g).sum(axis=0)) < 3
+    effective = np.where(few, np.minimum(effective, g), effective)
+    level = (1.0 + confidence) / 2.0
+    shrunk = effective * (stdtrit(n - 1.0, level) / stdtrit(g - 1.0, level)) ** 2
+    low[several], high[several] = beta_interval(np.minimum(p * shrunk, shrunk), shrunk, confidence)
+    return low, high
 
 
 def sums_by_run(runs: npt.ArrayLike, **values: npt.ArrayLike) -> dict[str, Floats]:

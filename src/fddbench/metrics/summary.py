@@ -126,9 +126,16 @@ def _line(group: pd.DataFrame) -> dict[str, Value]:
 def _outcomes(flown: pd.DataFrame, *, healthy: bool) -> dict[str, Value]:
     """Counts of outcomes, and the shares of the decided flights."""
     outcome, sure = np.asarray(flown["outcome"], dtype=object), decided(flown)
+    # where some flights have a fault in what they fly and some do not, rates are of those that have one
+    faulty = _numbers(flown, "n_faulty") > 0
+    sure = sure if healthy else sure & faulty
     line: dict[str, Value] = {"decided": int(sure.sum())}
     for name in COUNTED:
-        applies = name == "false_alarm" or (name in _OF_FAULTS) != healthy
+        applies = (
+            name == "false_alarm"
+            or (healthy if name not in _OF_FAULTS else not healthy)
+            or bool((outcome == name).any())
+        )
         line[name] = int(np.sum(outcome == name)) if applies else None
     if not healthy:
         for name in ("right", "wrong_site"):

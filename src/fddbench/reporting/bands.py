@@ -2,25 +2,24 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from fddbench.interfaces import Bands, Floats, Response
-from fddbench.reporting.figures import label
-from fddbench.reporting.pictures import INK, MUTED, WARNING, colour, to_png
+from fddbench.reporting.labels import label
 from fddbench.reporting.signals import signal_panels
+from fddbench.reporting.svg.axes import Plot, linear
+from fddbench.reporting.svg.palette import SERIES, band
+from fddbench.reporting.svg.scene import Mark, Path, Scene, Text
+from fddbench.reporting.svg.traces import Panel, panel_scene
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+__all__ = ["asked_of", "band_scenes", "band_sections", "names_in"]
 
-__all__ = ["asked_of", "band_picture", "band_pictures", "names_in"]
-
-_COLUMNS = 4
-_COUNTS = ("#cfd8e3", "#e69f00", "#0072b2", "#b3261e", "#7b5ea7")
-"""Colours of 0, 1, 2, 3 and more declared sites."""
 _NUMBER = re.compile(r"_[0-9]+$")
+_ENDS = ((0, 6), (1, 5), (2, 4))
+"""Least to largest, 5 to 95 % and the middle half, by their places in `QUANTILES`."""
+_MOST_POINTS = 60
 
 
 def names_in(responses: Sequence[Response], shown: Sequence[str]) -> frozenset[str]:
@@ -37,12 +36,12 @@ def asked_of(responses: Sequence[Response], bands: Bands, shown: Sequence[str]) 
     return [panel for panel in panels if panel.signal in bands.signals]
 
 
-def band_pictures(bands: Sequence[Bands], responses: Sequence[Response], shown: Sequence[str]) -> list[dict[str, Any]]:
-    """One picture a scenario, with what its caption says."""
+def band_sections(bands: Sequence[Bands], responses: Sequence[Response], shown: Sequence[str]) -> list[dict[str, Any]]:
+    """Pictures of each scenario, with what its caption says."""
     found = []
     for each in bands:
-        png = band_picture(each, asked_of(responses, each, shown))
-        if png is not None:
+        scenes = band_scenes(each, asked_of(responses, each, shown))
+        if scenes:
             found.append(
                 {
                     "scenario": each.scenario,
@@ -51,45 +50,20 @@ def band_pictures(bands: Sequence[Bands], responses: Sequence[Response], shown: 
                     "of": each.of,
                     "case": each.case,
                     "onset_s": each.onset_s,
-                    "png": png,
+                    "scenes": scenes,
                 }
             )
     return found
 
 
-def band_picture(bands: Bands, panels: Sequence[Response]) -> str | None:
-    """Panels of signals, then for every detector what it shows, with its threshold, and how many sites it declares.
-
-    Of healthy flights detectors take a line each; of faulty ones the declarations matter most.
-    """
-    lines = _detector_panels(bands)
-    columns = _COLUMNS if panels or len(lines) > 1 else max(len(lines), 1)
-    n_rows = -(-len(panels) // columns) + -(-len(lines) // columns)
-    if not n_rows:
-        return None
-
-    def draw(figure: "Figure") -> None:
-        grid = figure.add_gridspec(n_rows, columns)
-        for i, panel in enumerate(panels):
-            _draw_response(figure.add_subplot(grid[i // columns, i % columns]), bands, panel)
-        begin = columns * -(-len(panels) // columns)
-        for i, (number, detector, names) in enumerate(lines, start=begin):
-            axes = figure.add_subplot(grid[i // columns, i % columns])
-            if names:
-                _draw_shown(axes, bands, detector, names, number)
-            else:
-                _draw_declared(axes, bands, detector, number)
-
-    return to_png(draw, width_in=11.4, height_in=0.1 + 1.75 * n_rows)
-
-
-def _detector_panels(bands: Bands) -> list[tuple[int, str, list[str]]]:
-    """Number and name of the detector of each panel, and its signals; none: what it declares."""
-    found = []
+def band_scenes(bands: Bands, panels: Sequence[Response]) -> list[Scene]:
+    """A picture a signal, then for every detector what it shows with its threshold, and how many sites it declares."""
+    found = [_response(bands, panel) for panel in panels]
     for number, (name, signals) in enumerate(bands.detectors.items()):
         first = next((panel for panel in signal_panels(signals) if panel != ["n_declared"]), [])
-        found += [(number, name, first)] if first else []
-        found += [(number, name, [])] if bands.onset_s is not None or np.any(bands.declared[name][1:] > 0.0) else []
+        found += [_shown(bands, name, first, number)] if first else []
+        if bands.onset_s is not None or np.any(bands.declared[name][1:] > 0.0):
+            found.append(_declared(bands, name))
     return found
 
 
@@ -104,70 +78,79 @@ def _label(name: str) -> str:
     return words + (number.group().replace("_", " ") if number else "") + unit + rest
 
 
-def _fill(axes: "Axes", time_s: Floats, quantiles: Floats, tone: str) -> None:
-    """Least to largest pale, 5 to 95 % and the middle half darker, the median as a line."""
-    for low, high, alpha in ((0, 6, 0.13), (1, 5, 0.2), (2, 4, 0.3)):
-        axes.fill_between(time_s, quantiles[low], quantiles[high], color=tone, alpha=alpha, linewidth=0)
-    axes.plot(time_s, quantiles[3], color=tone, lw=0.9)
+def _bands(quantiles: Floats) -> list[tuple[Floats, Floats]]:
+    return [(quantiles[low], quantiles[high]) for low, high in _ENDS]
 
 
-def _draw_response(axes: "Axes", bands: Bands, panel: Response) -> None:
-    _fill(axes, bands.time_s, bands.signals[panel.signal], "#56789a")
-    axes.plot(bands.time_s, bands.one[panel.signal], color=INK, lw=1.2)
-    low, high = axes.get_ylim()
+def _response(bands: Bands, panel: Response) -> Scene:
+    lines = [("ik", bands.one[panel.signal])]
     beside = [name for name in (panel.command, *panel.limits) if name in bands.one]
+    own = [bands.signals[panel.signal], bands.one[panel.signal]]
+    low, high = (
+        float(f([f(each, initial=np.inf if f is np.nanmin else -np.inf) for each in own]))
+        for f in (np.nanmin, np.nanmax)
+    )
     for name in beside:
-        look: dict[str, Any] = {"color": WARNING, "lw": 1.0, "ls": (0, (1, 1))}
-        if name == panel.command:
-            look = {"color": "#d55e00", "lw": 1.1, "ls": (0, (4, 2))}
-        axes.plot(bands.time_s, bands.one[name], **look)
-    axes.set_ylim(*_within(low, high, [bands.one[name] for name in beside]))
-    axes.set(ylabel=_label(panel.signal), xlabel="time [s]")
-    _frame(axes, bands)
+        room = 0.6 * (high - low)
+        # a stick at its stop would flatten all: what is far away is cut
+        near = np.where((bands.one[name] >= low - room) & (bands.one[name] <= high + room), bands.one[name], np.nan)
+        if np.isfinite(near).any():
+            lines.append(("prm" if name == panel.command else "wr", near))
+    return panel_scene(
+        Panel(
+            title=_label(panel.signal), y_name="", time_s=bands.time_s, bands=_bands(bands.signals[panel.signal]), lines=lines,
+            onset_s=bands.onset_s, look="b5",
+        ),
+        points=_MOST_POINTS,
+    )  # fmt: skip
 
 
-def _within(low: float, high: float, others: Sequence[Floats]) -> tuple[float, float]:
-    """Ends of an axis with commands and limits where they are near: a stick at its stop would flatten all."""
-    room = 0.6 * (high - low)
-    near = [
-        value for other in others for value in (np.nanmin(other), np.nanmax(other)) if low - room < value < high + room
-    ]
-    return float(min([low, *near])), float(max([high, *near]))
-
-
-def _draw_shown(axes: "Axes", bands: Bands, detector: str, names: Sequence[str], number: int) -> None:
+def _shown(bands: Bands, detector: str, names: Sequence[str], number: int) -> Scene:
     signals = bands.detectors[detector]
-    _fill(axes, bands.time_s, signals[names[0]], colour(number))
+    lines = [("ik", signals[names[0]][3])]
     for name in names[1:]:
-        for sign in (1.0, -1.0) if np.nanmin(signals[names[0]]) < 0.0 else (1.0,):
-            axes.plot(bands.time_s, sign * signals[name][3], color=INK, lw=1.0, ls=(0, (4, 2)))
+        lines += [
+            ("thr", sign * signals[name][3]) for sign in ((1.0, -1.0) if np.nanmin(signals[names[0]]) < 0.0 else (1.0,))
+        ]
     if names[0] == "residual":
-        axes.axhline(1.0, color=INK, ls=(0, (4, 2)), lw=1.0)
-    axes.set(ylabel=_label(names[0]), xlabel="time [s]")
-    axes.set_title(detector, color=colour(number))
-    _frame(axes, bands)
+        lines.append(("thr", np.ones_like(bands.time_s)))
+    return panel_scene(
+        Panel(
+            title=detector, y_name=_label(names[0]), time_s=bands.time_s, bands=_bands(signals[names[0]]), lines=lines,
+            onset_s=bands.onset_s, look=band(number % SERIES),
+        ),
+        points=_MOST_POINTS,
+    )  # fmt: skip
 
 
-def _draw_declared(axes: "Axes", bands: Bands, detector: str, number: int) -> None:
+def _declared(bands: Bands, detector: str) -> Scene:
     """Shares of flights that declare none, one, two, … sites, stacked."""
     shares: Mapping[int, Floats] = dict(enumerate(bands.declared[detector]))
+    plot = Plot(50, 18, 272, 100, linear(float(bands.time_s[0]), float(bands.time_s[-1]), 6), linear(0.0, 100.0, 3))
+    marks: list[Mark] = []
     bottom = np.zeros_like(bands.time_s)
     for count, share in shares.items():
-        top = bottom + 100.0 * share
-        axes.fill_between(
-            bands.time_s, bottom, top, color=_COUNTS[min(count, 4)], linewidth=0, step="post", label=str(count)
-        )
+        top = np.minimum(bottom + 100.0 * share, 100.0)
+        corners = [*_stepped(plot, bands.time_s, top), *reversed(_stepped(plot, bands.time_s, bottom))]
+        marks.append(Path(corners, _COUNTS[min(count, len(_COUNTS) - 1)], closed=True))
         bottom = top
-    axes.set(ylim=(0, 100), yticks=(0, 50, 100), ylabel="flights [%]", xlabel="time [s]")
-    axes.set_title("declares", color=colour(number))
-    axes.grid(visible=False)
-    axes.legend(
-        loc="lower right", ncols=len(shares), handlelength=0.8, columnspacing=0.7, frameon=True, framealpha=0.75
-    )
-    _frame(axes, bands)
-
-
-def _frame(axes: "Axes", bands: Bands) -> None:
-    axes.set_xlim(float(bands.time_s[0]), float(bands.time_s[-1]))
+    names = ", ".join(f"{count}" for count in shares)
+    marks += [Text(50, 12, f"{detector} declares {names} sites", bold=True), *plot.frame("", "flights [%]")]
     if bands.onset_s is not None:
-        axes.axvline(bands.onset_s, color=MUTED, lw=0.9, ls=":")
+        marks.append(plot.upright(bands.onset_s, "on"))
+    return Scene(330, 140, f"Share of flights in which {detector} declares {names} sites, over time", marks)
+
+
+_COUNTS = ("o2", "o3", "o0", "o4", "o5")
+"""Looks of 0, 1, 2, 3 and more declared sites."""
+
+
+def _stepped(plot: Plot, time_s: Floats, values: Floats) -> list[tuple[float, float]]:
+    """Corners of a step curve where it changes."""
+    kept = np.flatnonzero(np.diff(values, prepend=np.nan) != 0.0)
+    points = []
+    before = float(values[0])
+    for i in kept.tolist():
+        points += [*plot.at(float(time_s[i]), before), *plot.at(float(time_s[i]), float(values[i]))]
+        before = float(values[i])
+    return points + plot.at(float(time_s[-1]), before)

@@ -1,26 +1,23 @@
 """Maps of the smallest fault that is found, one picture a scenario, and the same numbers for the whole envelope."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from fddbench.metrics.detectable import SHARE
-from fddbench.metrics.smallest import ABOUT, ABOVE, AT_MOST, LEAST
-from fddbench.reporting.figures import label
+from fddbench.metrics.smallest import ABOUT, ABOVE, AT_MOST
 from fddbench.reporting.formats import DASH, count, interval, percent, present, rate
-from fddbench.reporting.pictures import INK, MUTED, colour, to_png
+from fddbench.reporting.labels import label
+from fddbench.reporting.svg.axes import ticks_text
+from fddbench.reporting.svg.heat import HeatCell, Side, heat_scene
+from fddbench.reporting.svg.scene import Scene
 from fddbench.reporting.tables import Cell
 from fddbench.units import suffix_of_name, unit_of_name
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.colors import Colormap, Normalize
-    from matplotlib.figure import Figure
-
 Line = dict[Any, Any]
 
-__all__ = ["MAP_HEADS", "detectability_lines", "detectability_pictures", "quantity"]
+__all__ = ["MAP_HEADS", "detectability_lines", "detectability_scenes", "quantity"]
 
 MAP_HEADS = (
     "scenario", "detector", "smallest found", "found of larger", "smallest in cells", "in sight", "false alarms", "per hour",
@@ -28,7 +25,6 @@ MAP_HEADS = (
 _SIGN = {AT_MOST: "≤ ", ABOVE: "> "}
 _MAP = ("site", "size", "times", "scenario")
 """What tells one map from another."""
-_HATCH, _NOBODY = "////", "#d9dee4"
 
 
 def quantity(size: str, times: str = "") -> str:
@@ -95,102 +91,63 @@ def _number(line: Line) -> str:
     return f"{_SIGN.get(line['relation'], '')}{rate(line['smallest'])}"
 
 
-def detectability_pictures(maps: pd.DataFrame, alarms: pd.DataFrame) -> list[dict[str, Any]]:
-    """By map and scenario its title, its picture (PNG in base64), and what is hatched; pictures that cannot be are left out."""
+def detectability_scenes(maps: pd.DataFrame, alarms: pd.DataFrame) -> list[dict[str, Any]]:
+    """By map and scenario its title and a picture per detector, with one scale of colours."""
     cells = _without_nulls(maps[maps["x_low"].notna().to_numpy(dtype=bool)])
     false_alarms = {line["detector"]: line for line in alarms.to_dict("records")}
     found = []
     for _, own in cells.groupby(list(_MAP), sort=False):
-        png = _picture(own, false_alarms)
         first = own.iloc[0]
-        if png is not None:
-            what = quantity(first["size"], first["times"])
-            found.append({"scenario": first["scenario"], "site": first["site"], "quantity": what, "png": png})
+        what = quantity(first["size"], first["times"])
+        known = own["smallest"].to_numpy(dtype=float, na_value=np.nan)
+        largest = float(np.max(known, where=np.isfinite(known), initial=0.0))
+        scenes = [
+            _scene(group, what, largest or 1.0, false_alarms[detector])
+            for detector, group in own.groupby("detector", sort=False)
+            if _finite(group)
+        ]
+        if scenes:
+            found.append({"scenario": first["scenario"], "site": first["site"], "quantity": what, "scenes": scenes})
     return found
 
 
-def _picture(own: pd.DataFrame, alarms: dict[str, Line]) -> str | None:
-    """Panels of one scenario, a detector each, with one scale of colours."""
-    import matplotlib as mpl
+def _finite(group: pd.DataFrame) -> bool:
+    """Whether an axis can hold the cells: sizes of 1e308 have no middle."""
+    with np.errstate(over="ignore"):
+        ends = group[["x_low", "x_high", "y_low", "y_high"]].to_numpy(dtype=float)
+        return bool(np.isfinite(ends).all() and np.isfinite(np.ptp(ends)))
 
-    detectors = list(own["detector"].unique())
-    columns = min(3, max(2, len(detectors)))
-    n_rows = -(-len(detectors) // columns)
-    known = own["smallest"].to_numpy(dtype=float, na_value=np.nan)
-    largest = float(np.max(known, where=np.isfinite(known), initial=0.0))
-    norm = mpl.colors.Normalize(0.0, largest or 1.0)
-    colours = mpl.colormaps["viridis_r"]
 
-    def draw(figure: "Figure") -> None:
-        panels = figure.subplots(n_rows, columns, squeeze=False).ravel()
-        for i, (axes, detector) in enumerate(zip(panels, detectors, strict=False)):
-            _panel(axes, own[(own["detector"] == detector).to_numpy(dtype=bool)], norm, colours)
-            axes.set_title(detector, color=colour(i), pad=16)
-            axes.annotate(_beside(alarms[detector]), (0.0, 1.015), xycoords="axes fraction", color=MUTED, size=7.5)
-        for axes in panels[len(detectors) :]:
-            axes.set_visible(False)
-        first = own.iloc[0]
-        if largest:  # else no cell has a colour
-            bar = figure.colorbar(mpl.cm.ScalarMappable(norm, colours), ax=panels.tolist(), shrink=0.9, pad=0.01)
-            bar.set_label(f"{quantity(first['size'], first['times'])} found in {100 * SHARE:g} %")
-        _legend(figure, own)
+def _scene(group: pd.DataFrame, what: str, largest: float, alarms: Line) -> Scene:
+    """Map of one detector."""
+    sides = {axis: _side(group, axis) for axis in "xy"}
+    cells = [_cell(line, largest) for line in group.to_dict("records") if line["flights"]]
+    detector = str(group["detector"].iloc[0])
+    return heat_scene(
+        cells, x=sides["x"], y=sides["y"], title=detector, note=_beside(alarms), look="o0",
+        label=f"Smallest {what} found in {100 * SHARE:g} % of flights by {detector}",
+    )  # fmt: skip
 
-    return to_png(draw, width_in=11.4, height_in=0.5 + 3.6 * n_rows)
+
+def _side(group: pd.DataFrame, axis: str) -> Side:
+    edges = sorted({*group[f"{axis}_low"].tolist(), *group[f"{axis}_high"].tolist()})
+    return Side(
+        name=label(group[axis].iloc[0]), low=edges[0], high=edges[-1], ticks=[(e, ticks_text(e)) for e in edges]
+    )
+
+
+def _cell(line: Line, largest: float) -> HeatCell:
+    told = present(line["relation"])
+    above = told and line["relation"] == ABOVE
+    return HeatCell(
+        x=(line["x_low"], line["x_high"]), y=(line["y_low"], line["y_high"]),
+        dark=None if above else line["smallest"] / largest if told else 0.0,
+        text=_number(line) if told else f"n {line['flights']}", below=f"n {line['flights']}" if told else "",
+        hatched=bool(line["small"]),
+    )  # fmt: skip
 
 
 def _beside(line: Line) -> str:
     """False alarms of a detector, in words."""
     hourly = f", {rate(line['false_alarm_per_hour'])} per h" if present(line["false_alarm_per_hour"]) else ""
     return f"false alarms: {count(line['alarms'])} of {count(line['distinct_flights'])} flights{hourly}"
-
-
-def _panel(axes: "Axes", cells: pd.DataFrame, norm: "Normalize", colours: "Colormap") -> None:
-    """Map of one detector."""
-    from matplotlib.patches import Rectangle
-
-    axes.grid(visible=False)
-    for line in cells.to_dict("records"):
-        if not line["flights"]:
-            continue
-        corner, sides = (line["x_low"], line["y_low"]), (line["x_high"] - line["x_low"], line["y_high"] - line["y_low"])
-        told = present(line["relation"])
-        tone: Any = (
-            colours(norm(line["smallest"])) if told and line["relation"] != ABOVE else _NOBODY if told else "white"
-        )
-        axes.add_patch(Rectangle(corner, *sides, facecolor=tone, edgecolor="white", linewidth=1.0))
-        if line["small"]:
-            axes.add_patch(Rectangle(corner, *sides, fill=False, hatch=_HATCH, edgecolor=MUTED, linewidth=0.0))
-        box = {"boxstyle": "square,pad=0.15", "facecolor": tone, "edgecolor": "none"} if line["small"] else None
-        middle = corner[0] + 0.5 * sides[0], corner[1] + 0.5 * sides[1]
-        text = f"{_number(line)}\nn {line['flights']}" if told else f"n {line['flights']}"
-        axes.text(*middle, text, ha="center", va="center", size=7.5, color=_ink(tone), bbox=box)
-    ends = {axis: (cells[f"{axis}_low"].min(), cells[f"{axis}_high"].max()) for axis in "xy"}
-    axes.set(xlim=ends["x"], ylim=ends["y"], xlabel=label(cells["x"].iloc[0]), ylabel=label(cells["y"].iloc[0]))
-
-
-def _ink(tone: Any) -> str:
-    """Colour of text that can be read on this one."""
-    from matplotlib.colors import to_rgb
-
-    red, green, blue = to_rgb(tone)
-    return "white" if 0.299 * red + 0.587 * green + 0.114 * blue < 0.5 else INK
-
-
-def _legend(figure: "Figure", own: pd.DataFrame) -> None:
-    """What the looks of a cell mean, of those that there are."""
-    from matplotlib.patches import Patch
-
-    small = own["small"].to_numpy(dtype=bool)
-    above = (own["relation"] == ABOVE).to_numpy(dtype=bool, na_value=False)
-    few = own["relation"].isna().to_numpy(dtype=bool) & (own["flights"] > 0).to_numpy(dtype=bool)
-    looks = []
-    if above.any():
-        looks.append(Patch(facecolor=_NOBODY, edgecolor=MUTED, label="> : not even the largest flown"))
-    if few.any():
-        looks.append(Patch(facecolor="white", edgecolor=MUTED, label=f"not enough flights (fewer than {LEAST})"))
-    if small.any():
-        times = own["times"].iloc[0]
-        name = label(times).partition(" [")[0]
-        looks.append(Patch(facecolor="white", edgecolor=MUTED, hatch=_HATCH, label=f"small {name}"))
-    if looks:
-        figure.legend(handles=looks, loc="outside upper left", ncols=len(looks))

@@ -2,7 +2,6 @@
 
 import base64
 from collections.abc import Sequence
-from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +10,8 @@ from markupsafe import escape
 
 from fddbench.errors import FddbenchError
 from fddbench.interfaces import Floats, Recording
-from fddbench.reporting.figures import label
+from fddbench.reporting.declarations import declarations
+from fddbench.reporting.labels import label
 from fddbench.reporting.pictures import INK, MUTED, colour, drawn
 from fddbench.reporting.signals import signal_panels
 
@@ -19,30 +19,12 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["PICTURES", "declarations", "write_picture"]
+__all__ = ["PICTURES", "require_picture", "write_picture"]
 
 PICTURES = (".html", ".png", ".svg", ".pdf")
 """What a picture can be written as, by the end of the file's name."""
 
 _MOST_SIGNALS, _WIDTH_IN, _HEIGHT_IN = 6, 9.0, 1.45
-
-
-def declarations(recording: Recording, position: int = 0) -> list[tuple[str, float, str, bool]]:
-    """Every change of what is declared: detector, time [s], sites joined by ``+`` ("" for none any more), alarm."""
-    found = []
-    for name, sites in recording.declared.items():
-        alarm = recording.detectors[name]["alarm"][:, position]
-        said = [
-            ("+".join(site for site, rows in sites.items() if rows[k, position] > 0.0), bool(alarm[k] > 0.0))
-            for k in range(len(alarm))
-            if not np.isnan(alarm[k])
-        ]
-        k = 0
-        for what, same in groupby(said):
-            if k > 0 or what != ("", False):
-                found.append((name, float(recording.time_s[k]), *what))
-            k += len(list(same))
-    return found
 
 
 def write_picture(recording: Recording, path: Path, shown: Sequence[str] = ()) -> None:

@@ -2,27 +2,21 @@
 
 import re
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from fddbench.interfaces import Floats
-from fddbench.reporting.figures import label
 from fddbench.reporting.formats import count, short
-from fddbench.reporting.pictures import ORDINARY, colour, to_png
+from fddbench.reporting.labels import label
 from fddbench.reporting.tables import Cell
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-__all__ = ["INFEASIBLE", "infeasible_lines", "infeasible_map", "kind_of"]
+__all__ = ["INFEASIBLE", "infeasible_lines", "kind_of"]
 
 INFEASIBLE = ("because of", "manoeuvre", "flights", "of", "where")
 """Heads of what `infeasible_lines` gives."""
 
-_MARKERS = "osD^vP*X"
 _MOST_LINES = 40
 
 
@@ -71,52 +65,6 @@ def infeasible_lines(rows: pd.DataFrame, axes: Sequence[tuple[str, str]]) -> lis
 def _range(name: str, values: Floats) -> str:
     low, high = float(values.min()), float(values.max())
     return f"{label(name)} {short(low)}" + (f" to {short(high)}" if high > low else "")
-
-
-def infeasible_map(rows: pd.DataFrame, axes: Sequence[tuple[str, str]]) -> str | None:
-    """Picture of where flights are infeasible by kind of reason, the larger the more; None where there is none or no axis."""
-    flights = _flights(rows)
-    pairs = [(f"p_{x}", f"p_{y}") for x, y in axes if {f"p_{x}", f"p_{y}"} <= set(flights.columns)]
-    pairs = [(x, y) for x, y in pairs if flights[x].nunique() > 1 and flights[y].nunique() > 1]
-    kinds = list(flights[np.asarray(flights["infeasible"], dtype=bool)]["kind"].value_counts().index)
-    if not kinds or not pairs:
-        return None
-
-    def draw(figure: "Figure") -> None:
-        panels = figure.subplots(1, max(len(pairs), 2), squeeze=False).ravel()
-        for panel, (x, y) in zip(panels, pairs, strict=False):
-            _draw_map(panel, flights, kinds, x, y)
-        for panel in panels[len(pairs) :]:
-            panel.set_visible(False)
-        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper left", ncols=4)
-
-    return to_png(draw, width_in=11.4, height_in=4.1)
-
-
-def _draw_map(axes: "Axes", flights: pd.DataFrame, kinds: Sequence[str], x: str, y: str) -> None:
-    """Kinds of reasons side by side at the same place, so that none hides another."""
-    everywhere = flights.groupby([x, y]).size().reset_index()
-    axes.scatter(
-        _numbers(everywhere, x),
-        _numbers(everywhere, y),
-        s=14,
-        color=ORDINARY,
-        alpha=0.5,
-        linewidths=0,
-        label="asked for",
-    )
-    span = float(np.ptp(_numbers(flights, x)))
-    on_grid = flights[x].nunique() <= 12
-    for i, kind in enumerate(kinds):
-        here = flights[np.asarray(flights["kind"] == kind, dtype=bool)]
-        places = here.groupby([x, y]).size().reset_index(name="n")
-        aside = 0.022 * span * (i - 0.5 * (len(kinds) - 1)) if on_grid else 0.0
-        axes.scatter(
-            _numbers(places, x) + aside, _numbers(places, y), s=16.0 * np.sqrt(_numbers(places, "n")), zorder=3 + i,
-            facecolors=colour(i) if i < 4 else "none", edgecolors=colour(i), alpha=0.75, marker=_MARKERS[i % len(_MARKERS)],
-            linewidths=0.8, label=f"{kind} (n = {len(here)})",
-        )  # fmt: skip
-    axes.set(xlabel=label(x), ylabel=label(y))
 
 
 def _numbers(table: pd.DataFrame, column: str) -> Any:

@@ -1,4 +1,4 @@
-"""How every picture of the page looks, and how it becomes text: PNG in base64, the same bytes for the same input."""
+"""How pictures of matplotlib look, and how they become files: the same bytes for the same input."""
 
 import base64
 import io
@@ -7,14 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from fddbench.interfaces import Floats
-
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["INK", "MUTED", "ORDINARY", "WARNING", "colour", "dashes", "drawn", "thinned", "to_png"]
+__all__ = ["INK", "MUTED", "WARNING", "colour", "dashes", "drawn", "to_png"]
 
-INK, MUTED, ORDINARY, WARNING = "#1f2933", "#7b8794", "#9fb3c8", "#b3261e"
+INK, MUTED, WARNING = "#1f2933", "#7b8794", "#b3261e"
 # Okabe and Ito (2008): told apart by the colour blind and in grey.
 _COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
 _STYLE: Any = {
@@ -92,28 +90,3 @@ _PLAIN: Mapping[str, dict[str, Any]] = {
     "pdf": {"metadata": {"CreationDate": None}},
 }
 """How each kind of file is written with the same bytes for the same picture."""
-
-
-def thinned(time_s: Floats, values: Floats, blocks: int = 500) -> tuple[Floats, Floats]:
-    """Signals with fewer points that keep every extreme: the smallest and largest of each block of samples.
-
-    Parameters
-    ----------
-    time_s : (n_time,) array
-        Time [s].
-    values : (n_time, n_cases) array
-        Signals; NaN after the end of a flight.
-    blocks : int
-        Blocks to keep; shorter signals are returned as they are.
-
-    Returns
-    -------
-    (n_point,) and (n_point, n_cases) arrays
-        At most two points per block.
-    """
-    size = len(time_s) // blocks
-    if size < 3:
-        return time_s, values
-    starts = np.arange(0, len(time_s), size)
-    extremes = np.stack([np.fmin.reduceat(values, starts), np.fmax.reduceat(values, starts)], axis=1)
-    return np.repeat(time_s[starts], 2), extremes.reshape(2 * len(starts), -1)

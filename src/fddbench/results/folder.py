@@ -14,7 +14,7 @@ from fddbench.results.ours import RESERVED
 from fddbench.results.schema import SCHEMA_VERSION
 from fddbench.results.shards import file_sha256, write_bytes
 
-__all__ = ["RESERVED", "changed_files", "claim", "provenance_of", "refuse_foreign"]
+__all__ = ["RESERVED", "changed_files", "claim", "grow", "provenance_of", "put_back", "refuse_foreign"]
 
 _PROVENANCE = "provenance.json"
 _YAML = "campaign.yaml"
@@ -53,6 +53,32 @@ def claim(folder: Path, *, files: Mapping[str, bytes], provenance: Mapping[str, 
     _write(folder, provenance)
     _put_back(folder, provenance, files)
     return False
+
+
+def grow(folder: Path, *, files: Mapping[str, bytes], provenance: Mapping[str, Any]) -> None:
+    """Make a folder one of a campaign that has more flights or detectors; what it holds stays.
+
+    Parameters
+    ----------
+    folder : Path
+        Folder of results, locked.
+    files : mapping of str to bytes
+        Frozen files of the campaign of today; those that were there keep their content, but for campaign.yaml.
+    provenance : mapping
+        Of today, with the fingerprints and stages of before.
+    """
+    trust.remember(trust.code_digest(provenance["files"]))
+    for name, content in files.items():
+        if name != _YAML and file_sha256(folder / name) != provenance["files"].get(name):
+            write_bytes(folder / name, content)
+    # a crash between these two leaves the campaign of the stage before, which whoever extends again knows
+    _write(folder, provenance)
+    write_bytes(folder / _YAML, files[_YAML])
+
+
+def put_back(folder: Path, files: Mapping[str, bytes]) -> None:
+    """Write the frozen files of a folder that are missing or not as they were."""
+    _put_back(folder, _read(folder), files)
 
 
 def refuse_foreign(folder: Path, *, fresh: bool = False) -> None:
@@ -135,13 +161,12 @@ def _write(folder: Path, provenance: Mapping[str, Any]) -> None:
 
 
 def _put_back(folder: Path, there: Mapping[str, Any], files: Mapping[str, bytes]) -> None:
-    """Write the frozen files that are missing or not as they were."""
+    """Write the frozen files that are missing or not as they were, and a campaign that says the same in other words."""
     for name, content in files.items():
-        listed = _frozen(there).get(name)
-        if file_sha256(folder / name) != listed:
+        listed, digest = _frozen(there).get(name), sha256(content).hexdigest()
+        if file_sha256(folder / name) != listed or (name == _YAML and digest != listed):
             write_bytes(folder / name, content)
-            digest = sha256(content).hexdigest()
-            if digest != listed and name == _YAML:  # the same campaign in other words
+            if digest != listed and name == _YAML:  # about, report and requirements decide no row
                 _write(folder, dict(there) | {"campaign_yaml_sha256": digest})
 
 

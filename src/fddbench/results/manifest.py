@@ -38,6 +38,8 @@ class Shard:
         Rows by status.
     fingerprint : str
         Of the campaign and the program that flew it.
+    detectors : tuple of str
+        Those that it has rows of; empty: all of its campaign.
     """
 
     cases: tuple[tuple[int, int], ...]
@@ -47,10 +49,11 @@ class Shard:
     events_sha256: str | None
     statuses: dict[str, int]
     fingerprint: str
+    detectors: tuple[str, ...] = ()
 
     @property
     def numbers(self) -> set[int]:
-        """Case numbers in it."""
+        """Case numbers in it, in the plan of the campaign that flew it."""
         return {case for first, count in self.cases for case in range(first, first + count)}
 
 
@@ -66,10 +69,14 @@ def append(folder: Path, shard: Shard) -> None:
     """Add one line, durably."""
     # never through a link: what it points to is somebody else's
     handle = os.open(folder / _NAME, os.O_WRONLY | os.O_APPEND | getattr(os, "O_NOFOLLOW", 0))
-    with os.fdopen(handle, "ab") as file:
-        file.write(_line(shard))
-        file.flush()
-        os.fsync(file.fileno())
+    try:
+        with os.fdopen(handle, "ab") as file:
+            file.write(_line(shard))
+            file.flush()
+            os.fsync(file.fileno())
+    except OSError as error:
+        error.filename = error.filename or str(folder / _NAME)
+        raise
 
 
 def keep(folder: Path, kept: Sequence[Shard]) -> None:
@@ -112,13 +119,14 @@ def survey(folder: Path) -> Survey:
         ) from error
     found: list[Shard] = []
     wrong: list[str] = []
-    taken: set[int] = set()
+    listed: dict[tuple[str, tuple[str, ...]], set[int]] = {}
     for number, line in enumerate(lines, start=1):
         shard = _shard(line)
-        numbers = shard.numbers if shard is not None else set()
         if shard is None:
             wrong.append(f"line {number}: it is not the line that was written")
-        elif numbers & taken:
+            continue
+        numbers, taken = shard.numbers, listed.setdefault((shard.fingerprint, shard.detectors), set())
+        if numbers & taken:
             wrong.append(f"line {number}: it lists flights that an earlier line has (case {min(numbers & taken)})")
         else:
             found.append(shard)
@@ -129,6 +137,8 @@ def survey(folder: Path) -> Survey:
 def _line(shard: Shard) -> bytes:
     """Line of a shard, ended, with the sha256 of the rest of it."""
     content: dict[str, Any] = asdict(shard)
+    if not shard.detectors:  # as it was before folders could grow
+        del content["detectors"]
     text = json.dumps(content)
     return json.dumps(content | {"line_sha256": sha256(text.encode()).hexdigest()}).encode() + b"\n"
 
@@ -139,6 +149,7 @@ def _shard(line: bytes) -> Shard | None:
         entry = json.loads(line)
         del entry["line_sha256"]
         entry["cases"] = tuple((int(first), int(count)) for first, count in entry["cases"])
+        entry["detectors"] = tuple(str(name) for name in entry.get("detectors", ()))
         shard = Shard(**entry)
         names = (shard.rows, *([shard.events] if shard.events is not None else []))
         sound = all(_FILE.fullmatch(name) for name in names) and _line(shard) == line + b"\n"

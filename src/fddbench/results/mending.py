@@ -1,17 +1,19 @@
 """What a run does with a folder that it goes on with: what is damaged is no longer listed, so that it is flown again."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from fddbench.errors import ResultsError
 from fddbench.results import manifest, ours
 from fddbench.results.manifest import Shard
 from fddbench.results.shards import file_sha256
+from fddbench.results.stages import Numbering
 
 __all__ = ["mend"]
 
 
-def mend(folder: Path, *, fingerprint: str, n_cases: int) -> tuple[tuple[Shard, ...], tuple[str, ...]]:
+def mend(folder: Path, *, provenance: Mapping[str, Any]) -> tuple[tuple[Shard, ...], tuple[str, ...]]:
     """Keep what is sound on the list of a folder: the shards of it, and in words what was lost.
 
     No table is deleted; the flights of one that is not listed any more are flown again, to the same rows.
@@ -20,10 +22,8 @@ def mend(folder: Path, *, fingerprint: str, n_cases: int) -> tuple[tuple[Shard, 
     ----------
     folder : Path
         Folder of results, claimed by the run.
-    fingerprint : str
-        What every shard must carry.
-    n_cases : int
-        Length of the case table.
+    provenance : mapping
+        Of the folder: what shards may carry, and its case table.
 
     Raises
     ------
@@ -32,14 +32,14 @@ def mend(folder: Path, *, fingerprint: str, n_cases: int) -> tuple[tuple[Shard, 
     """
     ours.sweep(folder)
     found = manifest.survey(folder)
-    if any(shard.fingerprint != fingerprint for shard in found.shards):
+    if any(shard.fingerprint not in provenance["fingerprints"] for shard in found.shards):
         raise ResultsError(
             f"{folder} lists shards of another campaign or program; name another folder with --out, or replace the "
             "results with --fresh"
         )
-    lost, kept = list(found.wrong), list[Shard]()
+    lost, kept, numbering = list(found.wrong), list[Shard](), Numbering(provenance)
     for shard in found.shards:
-        reason = _wrong(folder, shard, n_cases)
+        reason = _wrong(folder, shard, numbering)
         if reason:
             lost.append(reason)
         else:
@@ -48,7 +48,7 @@ def mend(folder: Path, *, fingerprint: str, n_cases: int) -> tuple[tuple[Shard, 
     return tuple(kept), tuple(lost)
 
 
-def _wrong(folder: Path, shard: Shard, n_cases: int) -> str:
+def _wrong(folder: Path, shard: Shard, numbering: Numbering) -> str:
     """What is wrong with a shard, "" for nothing."""
     files: Sequence[tuple[str | None, str | None]] = (
         (shard.rows, shard.rows_sha256),
@@ -57,6 +57,8 @@ def _wrong(folder: Path, shard: Shard, n_cases: int) -> str:
     for name, sha256 in files:
         if name is not None and file_sha256(folder / name) != sha256:
             return f"{name} is damaged or gone"
-    if not all(0 <= first < first + count <= n_cases for first, count in shard.cases):
+    try:
+        numbering.numbers(shard)
+    except ResultsError:
         return f"{shard.rows} holds flights beyond the case table"
     return ""

@@ -3,10 +3,14 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 from fddbench.errors import ResultsError
 from fddbench.results.folder import provenance_of
 from fddbench.results.manifest import Shard, shards
+from fddbench.results.stages import Numbering
 
 __all__ = ["Holdings", "holdings", "require_whole"]
 
@@ -47,28 +51,32 @@ def holdings(folder: Path) -> Holdings:
     ResultsError
         No folder of results, or a damaged one.
     """
-    return counted(provenance_of(folder)["flights"], shards(folder), folder)
+    return counted(provenance_of(folder), shards(folder), folder)
 
 
-def counted(flights: Mapping[str, int], listed: tuple[Shard, ...], folder: Path) -> Holdings:
-    """Flights of shards by scenario; the case table has the scenarios one after the other.
+def counted(provenance: Mapping[str, Any], listed: tuple[Shard, ...], folder: Path) -> Holdings:
+    """Flights of shards by scenario; a flight is there when all detectors have a row of it.
 
     Raises
     ------
     ResultsError
-        A shard has flights beyond the case table.
+        A shard has flights beyond the case table, or a row is there twice.
     """
-    held, first = dict.fromkeys(flights, 0), 0
-    spans = [span for shard in listed for span in shard.cases]
-    for name, n in flights.items():
-        last = first + n
-        held[name] = sum(max(0, min(start + count, last) - max(start, first)) for start, count in spans)
-        first = last
-    if any(start < 0 or start + count > first for start, count in spans):
+    numbering = Numbering(provenance)
+    try:
+        rows = numbering.held(listed)
+    except ResultsError as error:
+        raise ResultsError(f"the manifest of {folder} is of another campaign: {error}") from None
+    if (rows > 1).any():
+        case = int(np.flatnonzero((rows > 1).any(axis=0))[0])
         raise ResultsError(
-            f"the manifest of {folder} lists flights beyond the {first} of its campaign; fly it anew with --fresh"
+            f"the manifest of {folder} lists flights twice (case {case}); fly the campaign anew with --fresh"
         )
-    return Holdings(held=held, total=dict(flights))
+    there, held, first = (rows == 1).all(axis=0), dict[str, int](), 0
+    for name, n in numbering.flights.items():
+        held[name] = int(there[first : first + n].sum())
+        first += n
+    return Holdings(held=held, total=numbering.flights)
 
 
 def require_whole(folder: Path) -> None:

@@ -1,5 +1,6 @@
 """From a campaign to what flies it."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -16,7 +17,7 @@ from fddbench.runner.firsts import first_samples
 from fddbench.runner.reconfiguration import require_able, require_commander
 from fddbench.runner.soundness import require_sound
 
-__all__ = ["assemble", "loop_of"]
+__all__ = ["assemble", "loop_of", "with_detectors"]
 
 
 def loop_of(planned: Plan) -> Loop:
@@ -69,7 +70,7 @@ def assemble(campaign: Campaign) -> Assembly:
     planned = plan(campaign)
     loop = loop_of(planned)
     require_able(campaign, loop)
-    n_faults = max((len(scenario.faults) for scenario in planned.scenarios), default=0)
+    n_faults = max((len(scenario.faults) for scenario in planned.scenarios), default=0) + planned.n_labelled
     units = [site.unit_name for site in loop.bus.sites]
     scoring = Scoring(loop.bus.names, n_faults, campaign.sample_s, units=units)
     consequences = Consequences(getattr(loop, "consequences", ()), loop.truth)
@@ -80,3 +81,11 @@ def assemble(campaign: Campaign) -> Assembly:
     found = build_detectors(campaign.designs, loop.bus, lambda: first_samples(assembly))
     require_commander(campaign, found)
     return replace(assembly, detectors=found)
+
+
+def with_detectors(campaign: Campaign, names: Sequence[str]) -> Campaign:
+    """The same flights with some of the detectors, and the one on which the aircraft acts; with all for no name."""
+    if not names:
+        return campaign
+    kept = tuple(design for design in campaign.designs if design.name in names or design.name == campaign.reconfigure)
+    return replace(campaign, designs=kept)

@@ -81,9 +81,9 @@ class Batch:
         )
 
 
-def has_events(scenario: PlannedScenario) -> bool:
-    """Whether the faults of a scenario are scored one by one: there are several, or one that ends."""
-    return len(scenario.faults) > 1 or any(fault.end_s is not None for fault in scenario.faults)
+def has_events(scenario: PlannedScenario, n_labelled: int = 0) -> bool:
+    """Whether the faults of a scenario are scored one by one: there are several, one that ends, or some in what flies."""
+    return n_labelled > 0 or len(scenario.faults) > 1 or any(fault.end_s is not None for fault in scenario.faults)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -127,8 +127,9 @@ class Assembly:
         """Constants and states of cases, a pure function of campaign, seed and case number."""
         at, parameters = self.plan.locate(cases), self.plan.parameters(cases)
         scenario, run = at.scenario, at.run
-        lists, faults = batch_faults(self.plan, at)
-        outside = self._outside(parameters, len(cases))
+        lists, faults = batch_faults(self.plan, at, parameters)
+        n_samples = self.plan.n_samples(cases)
+        outside = self._outside(parameters, faults, n_samples)
         streams = np.array([planned.stream for planned in self.plan.scenarios], dtype=np.int64)[scenario]
         n_cases, loop = len(cases), self.loop
         prepared = loop.prepare(
@@ -150,14 +151,20 @@ class Assembly:
             faults=faults,
             state=loop.states.pack(state, n_cases),
             constants=loop.constants.pack(loop.constants.spread(prepared.constants, n_cases), n_cases),
-            score_constants=self._score_rows(at, lists, faults, self.plan.n_samples(cases)),
+            score_constants=self._score_rows(at, lists, faults, n_samples),
             scenario_stream=streams,
             infeasible_reason=tuple(a or b for a, b in zip(outside, prepared.infeasible_reason, strict=True)),
         )
 
-    def _outside(self, parameters: Mapping[str, Floats], n_cases: int) -> list[str]:
-        """Why a case cannot be flown: a normal distribution has drawn a value that the benchmark does not have."""
-        reasons = [""] * n_cases
+    def _outside(self, parameters: Mapping[str, Floats], faults: BatchFaults, n_samples: Cases) -> list[str]:
+        """Why a case cannot be flown: a value is drawn that the benchmark does not have, or a fault begins after its log."""
+        reasons, sample_s = [""] * len(n_samples), self.plan.campaign.sample_s
+        if hasattr(self.plan.plant, "longest_s"):
+            late = np.where(faults.first < NEVER, faults.last_onset, 0.0).max(axis=0, initial=0.0)
+            for i in np.flatnonzero(late >= n_samples).tolist():
+                reasons[i] = (
+                    f"a fault begins at {late[i] * sample_s:g} s, after the log's end at {(n_samples[i] - 1) * sample_s:g} s"
+                )
         for limit in self.plan.plant.parameters:
             drawn = parameters[limit.name]
             for i in np.flatnonzero((drawn < limit.low) | (drawn > limit.high)).tolist():
@@ -229,6 +236,7 @@ class Assembly:
             for line, fault in enumerate(lists[s]):
                 for row, first in enumerate(first_samples(fault, sites, self.plan.campaign.sample_s)):
                     begins[line, row, mine] = first
+        begins = np.concatenate([begins[: len(begins) - len(faults.labelled)], faults.labelled])
         own = np.where(begins < NEVER, 1.0, 0.0)
         each = [FaultTimes(first=faults.first[j], last=faults.last[j], own=own[j]) for j in range(len(faults.first))]
         faulty_from = begins.min(axis=0, initial=NEVER)

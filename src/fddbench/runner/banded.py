@@ -9,7 +9,7 @@ import pandas as pd
 from fddbench.blocks.philox import philox4x32
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.plan import PlannedScenario
-from fddbench.interfaces import QUANTILES, Bands, Floats
+from fddbench.interfaces import NEVER, QUANTILES, Bands, Floats
 from fddbench.runner.assembling import assemble
 from fddbench.runner.assembly import Assembly, Batch
 from fddbench.runner.flight import Flyer
@@ -64,7 +64,7 @@ def _bands(
 ) -> Bands:
     assembly, chosen = flyer.assembly, names[:MOST_FLIGHTS]
     batch = assembly.batch(assembly.plan.numbers(chosen, planned.name))
-    at = _samples(assembly, planned, batch, seconds)
+    at = _samples(assembly, batch, seconds)
     kept = _kept(assembly, signals)
     shown = {name: ("residual", *own.recorded) for name, own in assembly.detectors.items()}
     asked = [*kept, *(f"{name}:{signal}" for name, own in shown.items() for signal in ("n_declared", *own))]
@@ -78,7 +78,7 @@ def _bands(
         of=len(names),
         case=chosen[0],
         time_s=np.round(at * sample_s, 9),
-        onset_s=round(float(batch.faults.k0.min()) * sample_s, 9) if planned.faults else None,
+        onset_s=round(float(k0) * sample_s, 9) if (k0 := batch.faults.k0.min()) < NEVER else None,
         signals={name: quantiles(values) for name, values in own.items()},
         one={name: values[:, 0] for name, values in own.items()},
         detectors={
@@ -89,13 +89,14 @@ def _bands(
     )
 
 
-def _samples(assembly: Assembly, planned: PlannedScenario, batch: Batch, seconds: float | None) -> Samples:
+def _samples(assembly: Assembly, batch: Batch, seconds: float | None) -> Samples:
     """Samples that are kept: about 300 of the flight, or from 1 s before the first onset on."""
-    per_s, first, last = 1.0 / assembly.loop.bus.sample_s, 0, max(planned.samples) - 1
-    if planned.faults:
-        first = max(int(batch.faults.k0.min()) - round(_BEFORE_S * per_s), 0)
+    per_s, first, last = 1.0 / assembly.loop.bus.sample_s, 0, int(assembly.ends(batch).max())
+    begun = batch.faults.k0[batch.faults.k0 < NEVER]
+    if len(begun):
+        first = max(int(begun.min()) - round(_BEFORE_S * per_s), 0)
         if seconds is not None:
-            last = min(last, int(batch.faults.k0.max()) + round(seconds * per_s))
+            last = min(last, int(begun.max()) + round(seconds * per_s))
     return np.arange(first, last + 1, max((last - first) // _POINTS, 1))
 
 

@@ -9,13 +9,14 @@ from fddbench.campaign.addresses import Addresses, Numbers
 from fddbench.campaign.plan import Plan
 from fddbench.faults.timing import first_samples, last_sample
 from fddbench.interfaces import NEVER, Fault, Floats
+from fddbench.runner.in_log import add_labelled, in_what_flies
 
 __all__ = ["BatchFaults", "batch_faults"]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class BatchFaults:
-    """Faults of some cases; a line is a fault of a scenario, in the order of the file.
+    """Faults of some cases; a line is a fault of a scenario, in the order of the file, or behind them one in what flies.
 
     Attributes
     ----------
@@ -29,6 +30,8 @@ class BatchFaults:
         The same for each fault by itself, from its own onset [s].
     numbers : mapping of str to (n_cases,) arrays
         What differs between flights, by its column; not-a-number where a scenario does not vary it.
+    labelled : (n_labelled, n_sites, n_cases) array
+        First faulty sample of every site of the faults that are in what flies: the last lines.
     """
 
     first: Floats
@@ -37,6 +40,7 @@ class BatchFaults:
     limit_s: Floats
     event_limits_s: Floats
     numbers: Mapping[str, Floats]
+    labelled: Floats
 
     @property
     def k0(self) -> Floats:
@@ -53,12 +57,20 @@ class BatchFaults:
             limit_s=self.limit_s[which],
             event_limits_s=self.event_limits_s[:, which],
             numbers={name: values[which] for name, values in self.numbers.items()},
+            labelled=self.labelled[:, :, which],
         )
 
 
-def batch_faults(plan: Plan, at: Addresses) -> tuple[list[Sequence[Fault]], BatchFaults]:
-    """Faults of every scenario as these flights fly them (of scenarios that do not fly, as written), and their times."""
-    n_cases, n_lines = len(at.run), max((len(planned.faults) for planned in plan.scenarios), default=0)
+def batch_faults(
+    plan: Plan, at: Addresses, parameters: Mapping[str, Floats] | None = None
+) -> tuple[list[Sequence[Fault]], BatchFaults]:
+    """Faults of every scenario as these flights fly them (of scenarios that do not fly, as written), and their times.
+
+    `parameters` are those of the flights; they say which faults are in what flies, where there can be any.
+    """
+    n_cases, injected = len(at.run), max((len(planned.faults) for planned in plan.scenarios), default=0)
+    own = None if parameters is None or not plan.n_labelled else in_what_flies(plan, parameters)
+    n_lines = injected + (0 if own is None else len(own.first))
     lists: list[Sequence[Fault]] = [planned.faults for planned in plan.scenarios]
     found = BatchFaults(
         first=np.full((n_lines, n_cases), NEVER),
@@ -67,6 +79,7 @@ def batch_faults(plan: Plan, at: Addresses) -> tuple[list[Sequence[Fault]], Batc
         limit_s=np.full(n_cases, np.nan),
         event_limits_s=np.full((n_lines, n_cases), np.nan),
         numbers={column: np.full(n_cases, np.nan) for column in plan.columns},
+        labelled=np.full((0, len(plan.plant.sites), n_cases), NEVER) if own is None else own.first,
     )
     for s in np.unique(at.scenario).tolist():
         mine = at.scenario == s
@@ -76,6 +89,8 @@ def batch_faults(plan: Plan, at: Addresses) -> tuple[list[Sequence[Fault]], Batc
             found.numbers[column][mine] = values
         if faults:
             _fill(found, plan, s, faults, mine)
+    if own is not None:
+        add_labelled(found, plan, own, at.scenario, injected)
     return lists, found
 
 

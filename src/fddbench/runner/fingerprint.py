@@ -54,7 +54,9 @@ def _members(campaign: Campaign) -> Iterator[Any]:
 def provenance_for(plan: Plan, fingerprint: Fingerprint) -> dict[str, object]:
     """Provenance of a run of this case table that begins now."""
     campaign = plan.campaign
-    return collect(
+    notes: Any = getattr(plan.plant, "notes", None)
+    logs = {} if notes is None else {"logs": notes(campaign.sample_s)}
+    return logs | collect(
         fingerprint,
         campaign=campaign.name,
         designs_sha256={design.name: design.sha256 for design in campaign.designs},

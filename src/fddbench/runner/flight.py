@@ -74,7 +74,10 @@ class Flyer:
         self, assembly: Assembly, backend: str = "auto", given_up: Mapping[str, GivenUp] | None = None
     ) -> None:
         self.assembly, self.backend, self.given_up = assembly, backend, given_up or {}
-        self.compiled = (backend == "llvm" or (backend == "auto" and llvm.available())) and not self._acts_on_python()
+        large = bool(getattr(assembly.loop, "in_python", ""))
+        self.compiled = (backend == "llvm" or (backend == "auto" and llvm.available())) and not (
+            large or self._acts_on_python()
+        )
 
     def _acts_on_python(self) -> bool:
         """Whether the aircraft acts on a detector that cannot be compiled: then all fly in Python, sample by sample."""

@@ -8,7 +8,7 @@ import numpy.typing as npt
 import pyarrow as pa
 
 from fddbench.errors import DesignError
-from fddbench.interfaces import Floats
+from fddbench.interfaces import NEVER, Floats
 from fddbench.metrics.distinct import DistinctFlights, distinct_flights
 from fddbench.runner.assembly import Assembly
 from fddbench.runner.chunks import CHUNK, COMPILED_CHUNK
@@ -80,4 +80,8 @@ def _healthy_cases(assembly: Assembly, chunk: int) -> Iterator[Cases]:
         alike = [each.first_case + np.arange(each.n_cases) for each in planned if each.samples[0] == samples]
         cases = np.concatenate(alike).astype(np.int64)
         for first in range(0, len(cases), chunk):
-            yield cases[first : first + chunk]
+            part = cases[first : first + chunk]
+            if assembly.plan.n_labelled:  # a fault is in what flies
+                part = part[assembly.batch(part).faults.k0 == NEVER]
+            if len(part):
+                yield part

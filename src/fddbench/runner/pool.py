@@ -11,15 +11,12 @@ from typing import Any
 from fddbench.errors import FddbenchError
 from fddbench.results.manifest import Shard
 from fddbench.runner.chunks import Spans
-from fddbench.runner.given_up import GivenUps
-from fddbench.runner.work import fly_and_write
+from fddbench.runner.work import Work, fly_and_write
 
 __all__ = ["fly_all"]
 
 _ATTEMPTS = 3
 _SAFE_PATH = "PYTHONSAFEPATH"
-Work = tuple[str, str, str, GivenUps]
-"""Folder of results, the fingerprint of what flies, the back end, and the detectors that are given up."""
 
 
 def fly_all(work: Work, chunks: Sequence[Spans], *, jobs: int, threads: bool) -> Generator[Shard, None, None]:
@@ -51,14 +48,14 @@ def fly_all(work: Work, chunks: Sequence[Spans], *, jobs: int, threads: bool) ->
 
 def _once(work: Work, chunks: Sequence[Spans], *, jobs: int, threads: bool) -> Iterator[Shard]:
     if jobs == 1 or len(chunks) <= 1:
-        yield from (fly_and_write(*work, chunk) for chunk in chunks)
+        yield from (fly_and_write(work, chunk) for chunk in chunks)
         return
     from joblib import Parallel, delayed
 
     options = {"backend": "threading"} if threads else {"backend": "loky", "initializer": _begin_worker}
     pool = Parallel(n_jobs=jobs, return_as="generator_unordered", **options)
     with _safe_path():
-        yield from pool(delayed(fly_and_write)(*work, chunk) for chunk in chunks)
+        yield from pool(delayed(fly_and_write)(work, chunk) for chunk in chunks)
 
 
 @contextmanager

@@ -11,7 +11,7 @@ from fddbench.blocks.philox import philox4x32
 from fddbench.campaign.addresses import Address
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.plan import PlannedScenario
-from fddbench.interfaces import Floats, Recording
+from fddbench.interfaces import NEVER, Floats, Recording
 from fddbench.runner.assembling import assemble
 from fddbench.runner.assembly import Batch
 from fddbench.runner.fingerprint import frozen
@@ -103,9 +103,10 @@ def _record(
 ) -> Recording:
     """Signals of cases of one scenario."""
     assembly, sample_s = flyer.assembly, flyer.assembly.loop.bus.sample_s
-    k0, last = batch.faults.k0, max(planned.samples) - 1
-    if planned.faults and seconds is not None:
-        last = min(last, int(k0.max()) + round(seconds / sample_s))
+    k0, last = batch.faults.k0, int(assembly.ends(batch).max())
+    faulty = bool((k0 < NEVER).any())
+    if faulty and seconds is not None:
+        last = min(last, int(k0[k0 < NEVER].max()) + round(seconds / sample_s))
     sources = {**dict.fromkeys(assembly.loop.bus.signals, "measured"), **dict.fromkeys(assembly.loop.truth, "truth")}
     # a row of a signal, q_deg_s_2, is asked for by its number or with all the others, q_deg_s
     asked = {name for full in signals or () for name in (full, _NUMBER.sub("", full))}
@@ -117,7 +118,7 @@ def _record(
         scenario=planned.name,
         cases=assembly.plan.names(batch.cases),
         time_s=np.round(np.arange(last + 1) * sample_s, 9),
-        onset_s=np.round(k0 * sample_s, 9) if planned.faults else None,
+        onset_s=np.where(k0 < NEVER, np.round(k0 * sample_s, 9), np.nan) if faulty else None,
         signals=dict(
             _numbered(
                 {name: found[f"{source}:{name}"] for name, source in sources.items() if f"{source}:{name}" in found}

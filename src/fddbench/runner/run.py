@@ -4,8 +4,9 @@ import time
 from collections import Counter
 from collections.abc import Callable, Generator
 from contextlib import nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
+from zlib import crc32
 
 import numpy as np
 import numpy.typing as npt
@@ -13,16 +14,18 @@ import numpy.typing as npt
 from fddbench.campaign.meaning import Campaign
 from fddbench.errors import ResultsWarning, warn
 from fddbench.results import manifest
-from fddbench.results.folder import claim, refuse_foreign
+from fddbench.results.compacting import ENOUGH, compact
+from fddbench.results.folder import claim, provenance_of, refuse_foreign
 from fddbench.results.lock import locked
 from fddbench.results.mending import mend
-from fddbench.runner.assembling import assemble
-from fddbench.runner.chunks import CHUNK, COMPILED_CHUNK, OPAQUE_CHUNK, cut, missing, spans
+from fddbench.results.stages import Numbering
+from fddbench.runner.assembling import assemble, with_detectors
+from fddbench.runner.chunks import CHUNK, COMPILED_CHUNK, OPAQUE_CHUNK, cut, spans
 from fddbench.runner.fingerprint import fingerprint_of, provenance_for
 from fddbench.runner.flight import Flyer
 from fddbench.runner.pool import fly_all
 from fddbench.runner.rehearsal import rehearsed
-from fddbench.runner.work import lent
+from fddbench.runner.work import Work, lent
 
 __all__ = ["Progress", "RunReport", "run_campaign"]
 
@@ -113,15 +116,15 @@ def run_campaign(
     say = notice or _warned
     with locked(folder, notice=say):
         claim(folder, files=campaign.files(), provenance=provenance_for(plan, fingerprint), fresh=fresh)
-        left, told = _left(folder, plan.n_cases, fingerprint.sha256, progress, say)
+        parts, told = _left(folder, progress, say)
         told.tell()
-        size = chunk or _chunk(flyer)
-        chunks = [spans(part) for part in cut(plan, left, size=size, jobs=jobs)]
         # workers of an earlier run may still be there, in the working folder of that time
-        work = (str(folder.absolute()), fingerprint.sha256, backend, tuple(flyer.given_up.items()))
-        threads = flyer.compiled and not flyer.opaque
-        with lent(flyer, *work) if len(left) and threads else nullcontext():
-            interrupted = _fly(folder, fly_all(work, chunks, jobs=jobs, threads=threads), told)
+        work = Work(folder=str(folder.absolute()), fingerprint=fingerprint.sha256, backend=backend)
+        interrupted = any(_fly_part(flyer, work, part, jobs=jobs, chunk=chunk, told=told) for part in parts)
+        if interrupted:  # perhaps between the listing of a shard and its count
+            told.flown = plan.n_cases - sum(len(part.cases) for part in _left(folder, None, say)[0]) - told.before
+        else:
+            _few_files(folder, fingerprint.sha256, say)
     return RunReport(
         folder=folder,
         flights=told.flown,
@@ -133,22 +136,63 @@ def run_campaign(
     )
 
 
+def _few_files(folder: Path, fingerprint: str, say: Callable[[str], None]) -> None:
+    """Join the many small shards of a large campaign; a disk that has no room for it is no failure of the run."""
+    try:
+        compact(folder, only=fingerprint, least=ENOUGH)
+    except OSError as error:
+        say(f"{folder}: its shards stay as small as they are ({error.strerror}); join them with `fddbench compact`")
+
+
+@dataclass(frozen=True)
+class _Part:
+    """Flights that lack rows of the same detectors; no name for all."""
+
+    cases: npt.NDArray[np.int64]
+    detectors: tuple[str, ...]
+    label: str
+
+
 def _left(
-    folder: Path,
-    n_cases: int,
-    fingerprint: str,
-    progress: Callable[[Progress], None] | None,
-    say: Callable[[str], None],
-) -> tuple[npt.NDArray[np.int64], "_Told"]:
-    """Cases that are not there yet, and the count of those that are; what was lost is told."""
-    done, lost = mend(folder, fingerprint=fingerprint, n_cases=n_cases)
+    folder: Path, progress: Callable[[Progress], None] | None, say: Callable[[str], None]
+) -> tuple[list[_Part], "_Told"]:
+    """What is not there yet, and the count of what is; what was lost is told."""
+    provenance = provenance_of(folder)
+    done, lost = mend(folder, provenance=provenance)
     for what in lost:
         say(f"{folder}: {what}; its flights are flown again")
-    left = missing(n_cases, [shard.cases for shard in done])
+    numbering = Numbering(provenance)
+    lacks = numbering.held(done) == 0
     statuses = Counter[str]()
     for shard in done:
         statuses.update(shard.statuses)
-    return left, _Told(before=n_cases - len(left), total=n_cases, statuses=statuses, progress=progress)
+    grown, parts = len(provenance["fingerprints"]) > 1, []
+    left = np.flatnonzero(lacks.any(axis=0))
+    alike = lacks[:, left].all() or not len(left)
+    some = lacks[:, left[:1]] if alike else lacks[:, left]
+    kinds, which = np.unique(some, axis=1, return_inverse=True) if len(left) else (some, left)
+    which = np.zeros(len(left), dtype=np.int64) if alike else which
+    for k in range(kinds.shape[1]):
+        names = tuple(name for name, lack in zip(numbering.detectors, kinds[:, k], strict=True) if lack)
+        detectors = () if len(names) == len(numbering.detectors) else names
+        label = f"{crc32(repr((provenance['fingerprints'], detectors)).encode()):010d}" if grown or detectors else ""
+        parts.append(_Part(left[which.ravel() == k].astype(np.int64), detectors, label))
+    n = numbering.n_cases
+    return parts, _Told(before=n - len(left), total=n, statuses=statuses, progress=progress)
+
+
+def _fly_part(flyer: Flyer, work: Work, part: _Part, *, jobs: int, chunk: int | None, told: "_Told") -> bool:
+    """Fly what lacks rows of the same detectors; True when Ctrl-C came first."""
+    if part.detectors:
+        campaign = with_detectors(flyer.assembly.plan.campaign, part.detectors)
+        given_up = {name: why for name, why in flyer.given_up.items() if name in {d.name for d in campaign.designs}}
+        flyer = Flyer(assemble(campaign), flyer.backend, given_up)
+    work = replace(work, given_up=tuple(flyer.given_up.items()), detectors=part.detectors, label=part.label)
+    size = chunk or _chunk(flyer)
+    chunks = [spans(cases) for cases in cut(flyer.assembly.plan, part.cases, size=size, jobs=jobs)]
+    threads = flyer.compiled and not flyer.opaque
+    with lent(flyer, work) if threads else nullcontext():
+        return _fly(Path(work.folder), fly_all(work, chunks, jobs=jobs, threads=threads), told)
 
 
 @dataclass(kw_only=True)

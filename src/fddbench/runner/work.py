@@ -2,73 +2,111 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from threading import Lock
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 import pyarrow as pa
 
-from fddbench.interfaces import NEVER
+from fddbench.interfaces import IN_LOG, NEVER
 from fddbench.metrics.consequence_rows import consequence_columns
 from fddbench.metrics.rows import event_columns, score_columns, statuses
 from fddbench.metrics.scoring import Scoring
 from fddbench.results.manifest import Shard
 from fddbench.results.schema import EVENTS, rows_schema
 from fddbench.results.shards import write_table
-from fddbench.runner.assembling import assemble
+from fddbench.runner.assembling import assemble, with_detectors
 from fddbench.runner.assembly import Assembly, Batch, has_events
 from fddbench.runner.beside import beside
 from fddbench.runner.chunks import Spans, expand, spans
 from fddbench.runner.fingerprint import frozen_to_fly
 from fddbench.runner.flight import Flyer, Outcome
 from fddbench.runner.given_up import GivenUps
+from fddbench.runner.in_log import names_of
 
-__all__ = ["fly_and_write", "flyer_of", "lent", "rows_and_events", "rows_of"]
+__all__ = ["Work", "fly_and_write", "flyer_of", "lent", "rows_and_events", "rows_of", "schemas_of"]
 
 Columns = dict[str, pa.Array]
 Cases = npt.NDArray[np.int64]
 
 _SHARED = ("scenario", "point", "level", "run", "detector", "status", "reason")
-_making = Lock()
-_lent: dict[tuple[str, str, str, GivenUps], Flyer] = {}
+_making, _writing = Lock(), Lock()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Work:
+    """What a worker is given beside its cases; it crosses as plain data.
+
+    Attributes
+    ----------
+    folder, fingerprint, backend : str
+        Folder of results, the fingerprint of what flies, and the back end.
+    given_up : tuple
+        Detectors that are given up.
+    detectors : tuple of str
+        Those that rows are written of; empty: all of the campaign.
+    label : str
+        Digits in the names of its shards, "" in a folder that never grew.
+    """
+
+    folder: str
+    fingerprint: str
+    backend: str
+    given_up: GivenUps = ()
+    detectors: tuple[str, ...] = ()
+    label: str = ""
+
+
+_lent: dict[Work, Flyer] = {}
 
 
 @contextmanager
-def lent(flyer: Flyer, folder: str, fingerprint: str, backend: str, given_up: GivenUps = ()) -> Iterator[None]:
+def lent(flyer: Flyer, work: Work) -> Iterator[None]:
     """Fly a frozen campaign in the threads of this process with what flies it already, compiled now; forgotten afterwards."""
     flyer.prepare()
-    _lent[folder, fingerprint, backend, given_up] = flyer
+    _lent[work] = flyer
     try:
         yield
     finally:
-        del _lent[folder, fingerprint, backend, given_up]
+        with _writing:  # a thread that is writing comes to its end, and none begins
+            del _lent[work]
 
 
-def flyer_of(folder: str, fingerprint: str, backend: str, given_up: GivenUps = ()) -> Flyer:
+def flyer_of(work: Work) -> Flyer:
     """What flies a frozen campaign, lent or made and compiled once per process."""
-    known = _lent.get((folder, fingerprint, backend, given_up))
+    known = _lent.get(work)
     if known is not None:
         return known
     with _making:
-        return _flyer(folder, fingerprint, backend, given_up)
+        return _flyer(work)
 
 
 @lru_cache(maxsize=2)
-def _flyer(folder: str, fingerprint: str, backend: str, given_up: GivenUps) -> Flyer:
-    flyer = Flyer(assemble(frozen_to_fly(Path(folder), fingerprint)), backend, dict(given_up))
+def _flyer(work: Work) -> Flyer:
+    campaign = with_detectors(frozen_to_fly(Path(work.folder), work.fingerprint), work.detectors)
+    flyer = Flyer(assemble(campaign), work.backend, dict(work.given_up))
     flyer.prepare()
     return flyer
 
 
-def fly_and_write(folder: str, fingerprint: str, backend: str, given_up: GivenUps, case_spans: Spans) -> Shard:
-    """Fly the cases and write their shard into the folder of results; everything crosses as plain data."""
-    cases = expand(case_spans)
-    rows, events = rows_and_events(flyer_of(folder, fingerprint, backend, given_up), cases)
-    name = f"{cases[0]:08d}-{cases[-1]:08d}-{len(cases)}.parquet"
-    path = Path(folder)
+def fly_and_write(work: Work, case_spans: Spans) -> Shard:
+    """Fly the cases and write their shard into the folder of results."""
+    cases, in_thread = expand(case_spans), work in _lent
+    rows, events = rows_and_events(flyer_of(work), cases, work.detectors)
+    with _writing:
+        if in_thread and work not in _lent:
+            raise InterruptedError("the run that gave out this work has ended")
+        return _write(work, cases, rows, events)
+
+
+def _write(work: Work, cases: Cases, rows: pa.Table, events: pa.Table) -> Shard:
+    """Write the shard of some cases."""
+    fingerprint = work.fingerprint
+    name = "-".join(filter(None, [f"{cases[0]:08d}-{cases[-1]:08d}-{len(cases)}", work.label])) + ".parquet"
+    path = Path(work.folder)
     events_sha256 = write_table(path / "events" / name, events, fingerprint=fingerprint) if len(events) else None
     return Shard(
         cases=spans(cases),
@@ -80,11 +118,12 @@ def fly_and_write(folder: str, fingerprint: str, backend: str, given_up: GivenUp
             sorted((entry["values"], entry["counts"]) for entry in rows["status"].value_counts().to_pylist())
         ),
         fingerprint=fingerprint,
+        detectors=work.detectors,
     )
 
 
-def rows_and_events(flyer: Flyer, cases: Cases) -> tuple[pa.Table, pa.Table]:
-    """Rows and events of cases, case by case and detector by detector."""
+def rows_and_events(flyer: Flyer, cases: Cases, only: Sequence[str] = ()) -> tuple[pa.Table, pa.Table]:
+    """Rows and events of cases, case by case and detector by detector, of all or of some."""
     assembly = flyer.assembly
     batch = assembly.batch(cases)
     able = np.array([reason == "" for reason in batch.infeasible_reason], dtype=bool)
@@ -96,7 +135,7 @@ def rows_and_events(flyer: Flyer, cases: Cases) -> tuple[pa.Table, pa.Table]:
     parts: list[pa.Table] = []
     events = [EVENTS.empty_table()]
     order: list[Cases] = []
-    for number, detector in enumerate(assembly.detectors):
+    for number, detector in enumerate(only or assembly.detectors):
         for mine, result in ((flown, outcome), (grounded, None)):
             if len(mine.cases):
                 columns = _columns(assembly, mine, result, detector)
@@ -117,6 +156,11 @@ def _schema(assembly: Assembly) -> pa.Schema:
         plan.gain_columns,
         assembly.consequences.announced,
     )
+
+
+def schemas_of(assembly: Assembly) -> tuple[pa.Schema, pa.Schema]:
+    """Schemas of the rows and of the events of a campaign."""
+    return _schema(assembly), EVENTS
 
 
 def rows_of(assembly: Assembly, batch: Batch, outcome: Outcome | None, detector: str) -> pa.Table:
@@ -171,11 +215,23 @@ def _who(assembly: Assembly, batch: Batch, detector: str) -> Columns:
         "detector": [detector] * len(planned),
     }
     columns = {name: pa.array(known, pa.string()).take(where) for name, known in texts.items()}
+    if len(batch.faults.labelled):
+        columns["fault"] = _with_labelled(columns["fault"], batch)
     columns |= {name: pa.array(getattr(batch, name)) for name in ("point", "level", "run")}
     columns |= _swept(assembly, detector, len(batch.cases))
     flown = batch.faults.numbers.items()
     columns |= {name: pa.array(values, mask=np.isnan(values)) for name, values in flown}
     return columns | {f"p_{name}": pa.array(values) for name, values in batch.parameters.items()}
+
+
+def _with_labelled(kinds: pa.Array, batch: Batch) -> pa.Array:
+    """Kinds of the faults of flights joined by +, with a word for each that is in what flies."""
+    counts = (batch.faults.labelled < NEVER).any(axis=1).sum(axis=0).tolist()
+    texts = [
+        "+".join([*filter(None, [kind]), *[IN_LOG] * n]) or None
+        for kind, n in zip(kinds.to_pylist(), counts, strict=True)
+    ]
+    return pa.array(texts, pa.string())
 
 
 def _swept(assembly: Assembly, detector: str, n_cases: int) -> Columns:
@@ -190,32 +246,44 @@ def _events(
 ) -> list[pa.Table]:
     """Events of one detector: one per case and fault of scenarios whose faults are scored one by one."""
     found: list[pa.Table] = []
+    scoring, departed = assembly.scoring_of[detector], np.full(len(batch.cases), NEVER)
+    score = assembly.nothing_scored(batch, scoring)
+    if outcome is not None:
+        score, departed = outcome.scores[detector], outcome.departed
+    ok = np.array([status == "ok" for status in columns["status"].to_pylist()], dtype=bool)
     for position in np.unique(batch.scenario).tolist():
         planned = assembly.plan.scenarios[position]
-        if not has_events(planned):
+        if not has_events(planned, assembly.plan.n_labelled):
             continue
-        mine = batch.scenario == position
-        shared = {name: columns[name].filter(pa.array(mine)) for name in _SHARED}
-        scoring, departed = assembly.scoring_of[detector], np.full(len(mine), NEVER)
-        score = assembly.nothing_scored(batch, scoring)
-        if outcome is not None:
-            score, departed = outcome.scores[detector], outcome.departed
-        ok = np.array([status == "ok" for status in columns["status"].to_pylist()], dtype=bool)
-        for number, fault in enumerate(planned.faults):
+        for number, kind, sites, mine in _lines(assembly, batch, position):
             limit_s = batch.faults.event_limits_s[number]
             scores = event_columns(
                 scoring, score, batch.score_constants, event=number, limit_s=limit_s, departed=departed, valid=ok
             )
-            what: dict[str, Any] = {"event": number + 1, "fault": fault.kind, "sites": "+".join(fault.sites)}
-            alike = {
+            own = {name: columns[name].filter(pa.array(mine)) for name in _SHARED}
+            own |= {
                 name: pa.repeat(pa.scalar(value, EVENTS.field(name).type), int(mine.sum()))
-                for name, value in what.items()
+                for name, value in {"event": number + 1, "fault": kind}.items()
             }
-            own = {name: values.filter(pa.array(mine)) for name, values in scores.items()}
-            found.append(
-                pa.Table.from_pydict(shared | alike | _event_times(assembly, batch, number, mine) | own, schema=EVENTS)
-            )
+            own |= {"sites": sites.filter(pa.array(mine))} | _event_times(assembly, batch, number, mine)
+            own |= {name: values.filter(pa.array(mine)) for name, values in scores.items()}
+            found.append(pa.Table.from_pydict(own, schema=EVENTS))
     return found
+
+
+def _lines(
+    assembly: Assembly, batch: Batch, position: int
+) -> Iterator[tuple[int, str, pa.Array, npt.NDArray[np.bool_]]]:
+    """Line, kind, sites and flights of each fault of a scenario, and of those that are in what flies."""
+    mine, faults = batch.scenario == position, assembly.plan.scenarios[position].faults
+    for number, fault in enumerate(faults):
+        yield number, fault.kind, pa.repeat(pa.scalar("+".join(fault.sites)), len(mine)), mine
+    before = len(batch.faults.first) - len(batch.faults.labelled)
+    for line, first in enumerate(batch.faults.labelled):
+        there = mine & (first < NEVER).any(axis=0)
+        if there.any():
+            sites = pa.array(names_of(first < NEVER, assembly.loop.bus.names), pa.string())
+            yield before + line, IN_LOG, sites, there
 
 
 def _event_times(assembly: Assembly, batch: Batch, line: int, mine: npt.NDArray[np.bool_]) -> Columns:

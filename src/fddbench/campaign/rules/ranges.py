@@ -97,6 +97,9 @@ def _twice(document: Document, written: CampaignFile) -> Iterator[Mistake]:
 
 
 def _outside(document: Document, address: Address, value: float, parameter: Parameter) -> Iterator[Mistake]:
+    if parameter.whole and value != round(value):
+        yield document.mistake(address, f"{parameter.name} is a whole number ({parameter.about}), got {value:g}")
+        return
     if not parameter.low <= value <= parameter.high:
         unit = unit_of((parameter.name,))
         message = f"{parameter.name} must be within {parameter.low:g} to {parameter.high:g}{unit}, got {value:g}"
@@ -106,6 +109,10 @@ def _outside(document: Document, address: Address, value: float, parameter: Para
 def _distribution(
     document: Document, address: Address, distribution: Distribution, parameter: Parameter
 ) -> Iterator[Mistake]:
+    if parameter.whole:
+        message = f"{parameter.name} counts and is not drawn; list the numbers in a grid or a sequence"
+        yield document.mistake(address, message, key=True)
+        return
     given = sorted(distribution.model_fields_set)
     if len(given) != 1 or getattr(distribution, given[0]) is None:
         got = " and ".join(given) or "none"

@@ -84,7 +84,10 @@ def _of_data(reads: Callable[[Path], Any], name: str, folder: Path) -> tuple[Any
     path = folder / name
     if not path.is_file() or not path.resolve().is_relative_to(folder.resolve()):
         raise FddbenchError(f"no file {name} in {folder}; a file of data lies beside the campaign that names it")
-    return reads(path), {name: path.read_bytes()}
+    member, beside = reads(path), Path(name).parent
+    return member, {name: path.read_bytes()} | {
+        str(beside / own): content for own, content in getattr(member, "files", {}).items()
+    }
 
 
 def unknown_names(

@@ -26,6 +26,7 @@ def times(
     """What is wrong with the times of a scenario; a fault that does not fit the clock is told once, by that."""
     entry = written.scenarios[number]
     yield from _durations(document, written, number)
+    yield from _recorded(document, written, number, plant)
     unfit = [list(fault.unfit(written.sample_s)) for fault in faults]
     for position, wrong in enumerate(unfit):
         for key, message in wrong:
@@ -61,6 +62,17 @@ def _durations(document: Document, written: CampaignFile, number: int) -> Iterat
         wrong = "" if time_s is None else misfit(time_s, written.sample_s, least=1)
         if wrong:
             yield document.mistake(address, f"duration_s {wrong}")
+
+
+def _recorded(document: Document, written: CampaignFile, number: int, plant: Plant) -> Iterator[Mistake]:
+    """A flight that shall last longer than what was recorded."""
+    entry = written.scenarios[number]
+    own, longest_s = entry.duration_s, plant.manoeuvres.get(entry.manoeuvre)
+    given = written.duration_s if own is None else own
+    if hasattr(plant, "longest_s") and given is not None and longest_s is not None and given > longest_s:
+        address: Address = ("duration_s",) if own is None else ("scenarios", number, "duration_s")
+        message = f"the longest log lasts {longest_s:g} s, got {given:g}; remove this key to fly logs to their ends"
+        yield document.mistake(address, message)
 
 
 def _level_times(faults: Faults, flight_end_s: float, sample_s: float) -> Iterator[tuple[int, str, str]]:

@@ -1,0 +1,93 @@
+"""Several folders of results as one: parts of a campaign that flew on several machines, or that grew apart."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import yaml
+
+from fddbench.api.tables import leave_summary
+from fddbench.campaign.load import read_campaign
+from fddbench.campaign.meaning import Campaign
+from fddbench.campaign.reading.canonical import canonical_text
+from fddbench.errors import FddbenchError
+from fddbench.results.whole import Holdings, holdings
+from fddbench.runner.fingerprint import frozen
+from fddbench.runner.merging import merge_into
+
+__all__ = ["merge"]
+
+
+def merge(folders: Sequence[str | Path], output: str | Path) -> Holdings:
+    """Write the results of several folders into a new one, and say what it holds of its campaign.
+
+    The folders hold parts of one campaign, or campaigns that differ in their runs, grid values, scenarios and detectors alone.
+    The campaign of the new folder has all of these; flights that nobody flew are missing in it until it is run. Rows that two
+    folders hold must be the same, bit for bit.
+
+    Parameters
+    ----------
+    folders : sequence of str or Path
+        Two or more folders of results; they are not written to.
+    output : str or Path
+        New folder.
+
+    Raises
+    ------
+    FddbenchError
+        A folder is none of results, they do not belong together (the message says why), or `output` holds something.
+    """
+    paths = [Path(each) for each in folders]
+    if len({path.resolve() for path in paths}) < 2:
+        raise FddbenchError("two different folders of results at least; one alone is merged already")
+    out = Path(output)
+    if out.resolve() in {path.resolve() for path in paths}:
+        raise FddbenchError(f"{out} is one of the folders to merge; name a new one with --output")
+    parts = {path: frozen(path) for path in paths}
+    with TemporaryDirectory() as aside:
+        merge_into(out, parts, _whole(list(parts.values()), Path(aside)))
+    leave_summary(out)
+    return holdings(out)
+
+
+def _whole(campaigns: Sequence[Campaign], aside: Path) -> Campaign:
+    """Campaign that has what any of them has; what they contradict each other in is found by `merge_into`."""
+    content: dict[str, Any] = yaml.safe_load(campaigns[0].text)
+    files: dict[str, bytes] = {}
+    for campaign in campaigns:
+        files = {**campaign.files(), **files}
+        other = yaml.safe_load(campaign.text)
+        for key, name in (("scenarios", "name"), ("detectors", "design")):
+            known = {_name(entry, name) for entry in content[key]}
+            content[key] = [*content[key], *(entry for entry in other[key] if _name(entry, name) not in known)]
+        _widen(content.get("dispersions") or {}, other.get("dispersions") or {})
+        _more_runs(content["scenarios"], other["scenarios"])
+    files["campaign.yaml"] = canonical_text(content).encode()
+    for name, text in files.items():
+        (aside / name).parent.mkdir(parents=True, exist_ok=True)
+        (aside / name).write_bytes(text)
+    return read_campaign(aside / "campaign.yaml")
+
+
+def _name(entry: Any, key: str) -> str:
+    return entry if isinstance(entry, str) else str(entry[key])
+
+
+def _widen(mine: dict[str, Any], other: dict[str, Any]) -> None:
+    """Grid values and runs that either has."""
+    for name, values in (other.get("grid") or {}).items():
+        own = (mine.get("grid") or {}).get(name)
+        if own is not None:
+            mine["grid"][name] = sorted({*own, *values})
+    drawn, others = mine.get("monte_carlo"), other.get("monte_carlo")
+    if drawn and others:
+        drawn["runs"] = max(drawn["runs"], others["runs"])
+
+
+def _more_runs(mine: list[dict[str, Any]], other: list[dict[str, Any]]) -> None:
+    """Runs of scenarios that have their own."""
+    theirs = {entry["name"]: entry.get("runs") for entry in other}
+    for entry in mine:
+        if entry.get("runs") and theirs.get(entry["name"]):
+            entry["runs"] = max(entry["runs"], theirs[entry["name"]])

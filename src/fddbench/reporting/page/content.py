@@ -1,0 +1,152 @@
+"""What stands in each section of the page."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import pandas as pd
+
+from fddbench.metrics.alarms import summarize_alarms
+from fddbench.metrics.bound import breaches, with_bounds
+from fddbench.metrics.paired import PairedShares
+from fddbench.metrics.summary import summarize
+from fddbench.reporting import detectability, headlines, infeasible, tables
+from fddbench.reporting.bands import band_sections
+from fddbench.reporting.beside import beside
+from fddbench.reporting.bounds import HEADS, bound_lines
+from fddbench.reporting.consequences import consequence_heads, consequence_lines
+from fddbench.reporting.guarantees import guarantee_lines
+from fddbench.reporting.labels import OUTCOMES
+from fddbench.reporting.page.answer import answer
+from fddbench.reporting.page.cells import cells, parts_of
+from fddbench.reporting.page.columns import Columns
+from fddbench.reporting.page.courses import courses, loudest
+from fddbench.reporting.page.data import ReportData
+from fddbench.reporting.page.envelope import envelope_maps, envelope_pairs, infeasible_map
+from fddbench.reporting.page.matrix import matrix_lines
+from fddbench.reporting.page.operating import operating_scenes
+from fddbench.reporting.page.payload import payload
+from fddbench.reporting.page.ranking import Rank, beside_best, ranking
+from fddbench.reporting.page.ranks import rank_lines
+from fddbench.reporting.page.traces import signal_sections
+from fddbench.reporting.reasons import REASONS
+
+__all__ = ["content"]
+
+_MOST_REASONS = 60
+
+
+def content(report: ReportData) -> dict[str, Any]:
+    """Everything that the template of the page fills in."""
+    rows = report.rows
+    columns = Columns(rows)
+    summary = summarize(rows, in_sample=report.in_sample)
+    if report.bounds is not None:
+        summary = with_bounds(summary, report.bounds)
+    alarms = summarize_alarms(rows, in_sample=report.in_sample)
+    voted = {str(d["name"]) for d in report.designs if d.get("sees") == "voted"}
+    ranks = ranking(columns, alarms, in_sample=report.in_sample, voted=voted)
+    best = ranks[0].number if ranks and ranks[0].decided else None
+    own = cells(columns, summary, best)
+    return {
+        **_head(report, ranks, columns),
+        "payload": payload(
+            columns, own, {s: parts_of(columns, s) for s in range(len(columns.scenarios))}, report.folder
+        ),
+        "ranks": rank_lines(ranks),
+        "best": ranks[0].detector if best is not None else "",
+        "detectors": list(columns.detectors),
+        "matrix": matrix_lines(columns, own),
+        "outcomes": [(look, OUTCOMES[name]) for name, look in _LEGEND.items()],
+        **_pictures(report, columns, ranks, alarms),
+        **_more(report, summary),
+    }
+
+
+_LEGEND = {"right": "o0", "late": "o1", "missed": "o3", "wrong_site": "o4", "false_alarm": "o5", "undecided": "o2"}
+
+
+def _head(report: ReportData, ranks: Sequence[Rank], columns: Columns) -> dict[str, Any]:
+    """The first screen."""
+    names = ("benchmark", *report.choices, "reconfigure", "purpose", "seed", "sample_s")
+    return {
+        "campaign": report.campaign,
+        "settings": {n: report.campaign[n] for n in names if report.campaign.get(n) not in (None, "")},
+        "partial": report.partial,
+        "flown": headlines.flown_sentence(report.rows),
+        "answer": answer(
+            ranks, _second(columns, ranks), courses=courses(columns, report.swept), loudest=loudest(columns, ranks)
+        ),
+        "in_sample": report.in_sample,
+        "requirements": list(report.requirements),
+    }
+
+
+def _second(columns: Columns, ranks: Sequence[Rank]) -> PairedShares | None:
+    """The second of the ranking beside the first."""
+    known = [line for line in ranks if line.decided]
+    return beside_best(columns, known[0].number, known[1].number) if len(known) > 1 else None
+
+
+_MOST_MAPS = 6
+"""Detectors of which a map of the envelope is drawn."""
+
+
+def _pictures(report: ReportData, columns: Columns, ranks: Sequence[Rank], alarms: pd.DataFrame) -> dict[str, Any]:
+    """What is drawn below the matrix."""
+    pairs = envelope_pairs(columns, report.envelope_axes, report.swept)
+    chosen = [line.number for line in ranks[:_MOST_MAPS]]
+    maps = [scene for x, y in pairs if (scene := infeasible_map(columns, x, y)) is not None]
+    promises = {str(d["name"]): d["promise"] for d in report.designs if d.get("promise") is not None}
+    own = report.detectable if report.detectable is not None and not report.detectable.empty else None
+    return {
+        "folder": report.folder,
+        "operating": operating_scenes(report.operating) if report.operating is not None else [],
+        "envelopes": envelope_maps(columns, pairs, chosen),
+        "more_detectors": max(len(ranks) - _MOST_MAPS, 0),
+        "infeasible_maps": maps,
+        "infeasible_heads": infeasible.INFEASIBLE,
+        "infeasible": infeasible.infeasible_lines(report.rows, report.envelope_axes),
+        "maps": detectability.detectability_scenes(own, alarms) if own is not None else [],
+        "map_lines": detectability.detectability_lines(own, alarms) if own is not None else [],
+        "map_heads": detectability.MAP_HEADS,
+        "bands": band_sections(report.bands, report.responses, report.shown),
+        "signals": signal_sections(report.recordings, report.rows, [line.detector for line in ranks], promises),
+        "promised": bool(promises),
+    }
+
+
+def _more(report: ReportData, summary: pd.DataFrame) -> dict[str, Any]:
+    """What is folded away."""
+    rows = report.rows
+    reasons = tables.reason_lines(rows)
+    compared = [found for table in report.published if (found := beside(summary, table)) is not None]
+    return {
+        "compared": compared,
+        "guarantees": guarantee_lines(rows, report.events, report.designs),
+        "iterations": report.iterations,
+        "limits_from": report.limits_from,
+        **_bounds(summary, report.bounds),
+        "consequence_heads": consequence_heads(report.consequences),
+        "consequences": consequence_lines(rows, report.consequences),
+        "reason_heads": REASONS,
+        "found_behind": report.reasons,
+        "reasons": reasons[:_MOST_REASONS],
+        "more_reasons": max(len(reasons) - _MOST_REASONS, 0),
+        "events": tables.event_lines(report.events) if len(report.events) else [],
+        "provenance": report.provenance,
+        "designs": report.designs,
+        "campaign_text": _as_yaml(report.campaign),
+    }
+
+
+def _bounds(summary: pd.DataFrame, stated: pd.DataFrame | None) -> dict[str, Any]:
+    """What the ideal test finds, and the scores that are better than that; empty without a faulty scenario."""
+    if stated is None or stated.empty:
+        return {"bounds": [], "bound_heads": (), "breaches": []}
+    return {"bounds": bound_lines(stated), "bound_heads": HEADS, "breaches": breaches(summary, stated)}
+
+
+def _as_yaml(content: Mapping[str, Any]) -> str:
+    import yaml
+
+    return yaml.safe_dump(dict(content), sort_keys=False, allow_unicode=True, width=110, default_flow_style=None)

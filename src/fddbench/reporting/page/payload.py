@@ -1,0 +1,144 @@
+"""Cells as short lists of numbers: what the script of the page draws a chosen cell from. No row of the table is in it."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from fddbench.metrics.association import Association, Parts
+from fddbench.metrics.paired import PairedShares
+from fddbench.reporting.formats import count, interval, percent, present, rate, seconds, short
+from fddbench.reporting.labels import label
+from fddbench.reporting.page.cells import Cell
+from fddbench.reporting.page.columns import Columns
+from fddbench.reporting.page.sizes import SizeCurve
+from fddbench.reporting.svg.axes import ticks_text
+
+__all__ = ["ORDER", "counts_of", "part_names", "payload"]
+
+ORDER = ("right", "late", "undecided", "missed", "wrong_site", "false_alarm")
+"""Outcomes of a cell in the payload; of a healthy one the first is quiet."""
+
+Data = dict[str, Any]
+
+
+def counts_of(line: Mapping[Any, Any]) -> dict[str, int]:
+    """Flights of a cell by outcome, those that it has."""
+    names = ("quiet", "false_alarm") if line["healthy"] else ORDER
+    return {name: int(line[name]) for name in names if present(line[name])}
+
+
+def payload(
+    columns: Columns, cells: Mapping[tuple[int, int], Cell], parts: Mapping[int, Mapping[str, Parts]], folder: str
+) -> Data:
+    """Everything for the script: detectors, scenarios with the names of their parts, cells row by row."""
+    scenarios = []
+    for s, name in enumerate(columns.scenarios):
+        line = next((cell.line for (i, _), cell in cells.items() if i == s), None)
+        limit = line["detection_time_limit_s"] if line is not None else None
+        own = {key: (label(key), part_names(each)) for key, each in parts.get(s, {}).items()}
+        used = sorted({a.name for (i, _), cell in cells.items() if i == s for a in cell.associations})
+        scenarios.append(
+            {"n": name, "h": int(bool(line is not None and line["healthy"])), "l": _plain(limit),
+             "m": line["pools"] if line is not None and present(line["pools"]) else "",
+             "p": {key: own[key] for key in used if key in own}}
+        )  # fmt: skip
+    return {
+        "d": list(columns.detectors), "f": folder, "s": scenarios,
+        "c": [[_cell(cells[s, d]) if (s, d) in cells else 0 for d in range(len(columns.detectors))]
+              for s in range(len(columns.scenarios))],
+    }  # fmt: skip
+
+
+def part_names(parts: Parts) -> list[str]:
+    """What parts are called: their value, of a range its middle."""
+    return [ticks_text(0.5 * (low + high)) for low, high in zip(parts.low.tolist(), parts.high.tolist(), strict=True)]
+
+
+def _cell(cell: Cell) -> Data:
+    line = cell.line
+    counts = counts_of(line)
+    names = ("quiet", *ORDER[1:]) if line["healthy"] else ORDER
+    found: Data = {"o": [counts.get(name, 0) for name in names], "n": int(line["flown"])}
+    lost = [int(line[name]) for name in ("infeasible", "failed", "departed")]
+    if any(lost):
+        found["z"] = lost
+    right = [percent(line["right_percent"]), interval(line["right_low_percent"], line["right_high_percent"])]
+    found["r"] = right if present(line["right_percent"]) else []
+    if cell.incidence is not None and cell.incidence.flights:
+        own = cell.incidence
+        found["i"] = [
+            [_short(t) for t in own.time_s.tolist()], own.found.tolist(), own.wrong.tolist(), _mille(own.low), _mille(own.high),
+            own.alarmed, _short(own.end_s),
+        ]  # fmt: skip
+    if cell.declared:
+        found["q"] = [[true, said, n] for true, said, n in cell.declared]
+    if cell.associations:
+        found["a"] = [_association(each) for each in cell.associations]
+    if cell.worst:
+        found["w"] = list(cell.worst)
+    if cell.paired is not None:
+        found["b"] = _paired(cell.paired, cell.p_holm)
+    if cell.size is not None:
+        found["k"] = _size(cell.size)
+    found["x"] = _quality(line)
+    return found
+
+
+def _quality(line: Mapping[Any, Any]) -> list[str]:
+    """Median, 95 % and largest time, over the limit, isolated, changes, bias, rms, healthy margin, bound; "–": none."""
+    times = [seconds(line[f"detection_time_{name}_s"]) for name in ("median", "p95", "max")]
+    rest = [rate(line[name]) for name in ("normalized_detection_time_max",)]
+    rest += [count(line["isolated"])]
+    rest += [
+        rate(line[f"{name}"])
+        for name in ("changes_max", "estimate_bias_median", "estimate_rms_median", "margin_healthy_max")
+    ]
+    return [*times, *rest, percent(line.get("bound_percent"))]
+
+
+def _association(each: Association) -> list[Any]:
+    return [
+        each.name,
+        round(each.v, 2),
+        each.failed.tolist(),
+        each.flights.tolist(),
+        _hundred(each.low),
+        _hundred(each.high),
+    ]
+
+
+def _paired(own: PairedShares, p_holm: float | None) -> list[Any]:
+    ends = [_percent(end) for end in (own.difference, own.low, own.high)]
+    return [*ends, None if p_holm is None else float(f"{p_holm:.2g}"), own.only_a, own.only_b, own.pairs]
+
+
+def _size(own: SizeCurve) -> list[Any]:
+    names = part_names(Parts(place=np.zeros(0, dtype=np.int64), low=own.low, high=own.high))
+    answer = own.smallest
+    said = ""
+    if answer.relation is not None and answer.size is not None:
+        sign = {"at_most": "at most ", "above": "above "}.get(answer.relation, "about ")
+        said = f"90 % found: {sign}{short(answer.size)}"
+    return [label(own.name), names, own.right.astype(int).tolist(), own.flights.astype(int).tolist(), _hundred(own.share_low),
+            _hundred(own.share_high), said]  # fmt: skip
+
+
+def _short(value: float) -> float | None:
+    return float(f"{value:.4g}") if np.isfinite(value) else None
+
+
+def _mille(values: "np.ndarray[Any, Any]") -> list[int | None]:
+    return [None if np.isnan(v) else round(1000.0 * v) for v in values.tolist()]
+
+
+def _hundred(values: "np.ndarray[Any, Any]") -> list[int | None]:
+    return [None if np.isnan(v) else round(100.0 * v) for v in values.tolist()]
+
+
+def _percent(value: float | None) -> float | None:
+    return None if value is None else round(100.0 * value, 1)
+
+
+def _plain(value: Any) -> float | None:
+    return float(value) if present(value) else None

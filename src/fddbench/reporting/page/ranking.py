@@ -1,0 +1,131 @@
+"""The detectors of a campaign, best first: one line each, over all faulty scenarios together."""
+
+from collections.abc import Collection
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from fddbench.metrics.clustered import PooledShare, korn_graubard
+from fddbench.metrics.paired import PairedShares, paired_shares
+from fddbench.reporting.page.columns import FAILED, Columns
+
+__all__ = ["Rank", "Weakest", "beside_best", "ranking"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Weakest:
+    """Scenario in which a detector fails most often, and in how many of its decided flights."""
+
+    scenario: str
+    failed: int
+    decided: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rank:
+    """One detector.
+
+    Attributes
+    ----------
+    detector : str
+        Its name.
+    number : int
+        Its place in the campaign: the colour of its lines.
+    faulty, decided, undecided : int
+        Flown flights with faults, and how many of them are decided and not.
+    right : PooledShare
+        Share of the decided ones that were right in time, by run.
+    outcomes : mapping of str to int
+        Flights by outcome.
+    distinct_flights, alarms : int
+        Healthy flights until their onsets, each once, and those with a false alarm.
+    alarms_high_percent : float or None
+        Upper end of the 95 % interval of their share [%].
+    weakest : Weakest or None
+        None: nothing failed, or nothing was decided.
+    in_sample, voted : bool
+        Tuned on these flights; sees the voted signal alone.
+    """
+
+    detector: str
+    number: int
+    faulty: int
+    decided: int
+    undecided: int
+    right: PooledShare
+    outcomes: dict[str, int]
+    distinct_flights: int
+    alarms: int
+    alarms_high_percent: float | None
+    weakest: Weakest | None
+    in_sample: bool = False
+    voted: bool = False
+
+
+def ranking(
+    columns: Columns, alarms: pd.DataFrame, *, in_sample: Collection[str] = (), voted: Collection[str] = ()
+) -> list[Rank]:
+    """Detectors by the share of decided faulty flights that were right, then fewest healthy sites declared and false alarms.
+
+    Those that see the voted signal alone come after all others, for they see less.
+    """
+    of = {str(line["detector"]): line for line in alarms.to_dict("records")}
+    lines = []
+    for number, name in enumerate(columns.detectors):
+        places = columns.of(number)
+        own = places[columns.ok[places] & columns.faulty[places]]
+        outcome = columns.texts("outcome")[own].astype(str)
+        sure = outcome != "undecided"
+        names, counts = np.unique(outcome, return_counts=True)
+        line = of.get(name, {})
+        high = line.get("alarms_high_percent")
+        lines.append(
+            Rank(
+                detector=name, number=number, faulty=len(own), decided=int(sure.sum()), undecided=int((~sure).sum()),
+                right=korn_graubard(outcome[sure] == "right", columns.whole("run")[own][sure]),
+                outcomes=dict(zip(names.tolist(), counts.tolist(), strict=True)),
+                distinct_flights=int(line.get("distinct_flights", 0)), alarms=int(line.get("alarms", 0)),
+                alarms_high_percent=None if high is None or pd.isna(high) else float(high),
+                weakest=_weakest(columns, own), in_sample=name in in_sample, voted=name in voted,
+            )
+        )  # fmt: skip
+    return sorted(lines, key=_order)
+
+
+def _order(line: Rank) -> tuple[bool, float, float, float, int]:
+    share = -1.0 if line.right.share is None else line.right.share
+    wrong = line.outcomes.get("wrong_site", 0) / max(line.decided, 1)
+    return line.voted, -share, wrong, line.alarms / max(line.distinct_flights, 1), line.number
+
+
+def _weakest(columns: Columns, own: "np.ndarray[Any, Any]") -> Weakest | None:
+    """Of scenarios with equal shares that with most failures, then the first."""
+    outcome = columns.texts("outcome")[own].astype(str)
+    sure = outcome != "undecided"
+    scenario, n = columns.scenario[own][sure], len(columns.scenarios)
+    decided = np.bincount(scenario, minlength=n)
+    failed = np.bincount(scenario[np.isin(outcome[sure], FAILED)], minlength=n)
+    if not failed.any():
+        return None
+    share = np.where(decided > 0, failed / np.maximum(decided, 1), -1.0)
+    at = max(range(n), key=lambda i: (share[i], failed[i], -i))
+    return Weakest(scenario=columns.scenarios[at], failed=int(failed[at]), decided=int(decided[at]))
+
+
+def beside_best(columns: Columns, best: int, other: int, scenario: int | None = None) -> PairedShares:
+    """Right shares of two detectors on the faulty flights that both have decided; of one scenario or of all.
+
+    The difference is that of `other` less that of `best`.
+    """
+    sides = []
+    for number in (best, other):
+        places = columns.of(number) if scenario is None else columns.cell(scenario, number)
+        sure = places[columns.decided[places] & columns.faulty[places]]
+        keys = [columns.scenario[sure], *(columns.whole(name)[sure] for name in ("point", "level", "run"))]
+        right = columns.texts("outcome")[sure] == "right"
+        sides.append(pd.Series(right, index=pd.MultiIndex.from_arrays(keys)))
+    both = pd.concat(sides, axis=1, join="inner")
+    a, b = both.iloc[:, 0].to_numpy(dtype=bool), both.iloc[:, 1].to_numpy(dtype=bool)
+    return paired_shares(a, b, both.index.get_level_values(3).to_numpy())

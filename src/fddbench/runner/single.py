@@ -1,0 +1,34 @@
+"""One design on the benchmark of a campaign: what commands about a single detector look at."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from fddbench import gallery
+from fddbench.campaign.load import read_campaign
+from fddbench.errors import FddbenchError
+from fddbench.runner.assembling import assemble
+from fddbench.runner.assembly import Assembly
+
+__all__ = ["assembly_with"]
+
+
+def assembly_with(detector: str, campaign: Path | None) -> Assembly:
+    """Assembly of a campaign with a design, or with a variant of one that the campaign sweeps."""
+    own = read_campaign(campaign) if campaign else None
+    swept = [design for design in own.designs if design.name == detector and design.swept] if own else []
+    if own is None or not swept:
+        return _one_detector(detector, campaign)
+    return assemble(replace(own, designs=tuple(swept), reconfigure=""))
+
+
+def _one_detector(design: str, campaign: Path | None) -> Assembly:
+    """Assembly of a campaign with one detector; without a campaign the first shipped one whose benchmark feeds it."""
+    shipped = [Path("smoke"), *(Path(path.stem) for path in sorted(gallery.folder("campaigns").glob("*.yaml")))]
+    first: FddbenchError | None = None
+    for path in [campaign] if campaign else shipped:
+        try:
+            return assemble(read_campaign(path, [f"detectors=[{design}]"]))
+        except FddbenchError as error:
+            first = first or error
+    assert first is not None
+    raise first

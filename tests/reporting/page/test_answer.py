@@ -1,0 +1,82 @@
+"""The first sentence on constructed tables: it names a best one only where the flights say so."""
+
+TWO = ("one", "other")
+FAULTS = ("jam_a", "jam_b")
+
+
+def test_all_right_is_no_contest(told, sentence):
+    text = sentence(told(FAULTS, TWO, 20, lambda *_: "right"))
+    assert text.startswith("Both detectors are right in time in all 40 decided faulty flights (at least ")
+    assert "It fails in none of them. It never declares a healthy site." in text
+
+
+def test_all_wrong_is_no_contest_either(told, sentence):
+    text = sentence(told(FAULTS, (*TWO, "third"), 20, lambda *_: "wrong_site"))
+    assert text.startswith(
+        "All 3 detectors are never right in time in 40 decided faulty flights. It fails most in jam_a: 20 of 20"
+    )
+    assert "In 40 flights it declares a healthy site." in text
+
+
+def test_a_tie_is_not_decided(told, sentence):
+    half = told(FAULTS, TWO, 20, lambda s, d, run: "right" if run < 10 else "missed")
+    assert sentence(half).startswith("Not decided: one and other are right in the same flights, 50.0 % of 40")
+    apart = told(FAULTS, TWO, 20, lambda s, d, run: "right" if (run < 10) == (d == "one") else "missed")
+    assert sentence(apart).startswith(
+        "Not decided between one and other, 50.0 and 50.0 % of faulty flights right in time (p = 1)"
+    )
+
+
+def test_the_best_is_best_when_the_same_flights_say_so(told, sentence):
+    text = sentence(
+        told(FAULTS, TWO, 20, lambda s, d, run: "right" if d == "other" or (run < 4 and s == "jam_a") else "missed")
+    )
+    assert text.startswith("Best of 2: other, 100 % of 40 decided faulty flights right in time (")
+    close = told(FAULTS, TWO, 20, lambda s, d, run: "right" if d == "other" or run > 2 else "missed")
+    assert sentence(close).startswith("Not decided between other and one, 100 and 85.0 %")
+
+
+def test_nothing_decided_is_no_rate(told, sentence):
+    text = sentence(told(FAULTS, TWO, 5, lambda *_: "undecided"))
+    assert text.startswith(
+        "Not decided: all 10 faulty flights end before the limit of their fault without a declaration."
+    )
+    assert "No false alarm of any detector in 5 distinct flights" in text
+    assert "%" not in text.split("No false alarm")[0]
+
+
+def test_one_flight_has_no_interval(told, sentence):
+    one = sentence(told(("jam_a",), ("one",), 1, lambda *_: "right"))
+    assert one.startswith("one: 100 % of 1 decided faulty flight right in time (one run: no interval).")
+    two = sentence(told(("jam_a",), TWO, 1, lambda s, d, run: "right" if d == "one" else "missed"))
+    assert two.startswith(
+        "Not decided between one and other, 100 and 0 % of faulty flights right in time (one run is no test)"
+    )
+
+
+def test_without_faults_it_speaks_of_false_alarms(told, sentence):
+    quiet = sentence(told(("healthy", "healthy_turn"), TWO, 30, lambda *_: "quiet"))
+    assert quiet.startswith("No false alarm of any detector in ")
+    loud = told(("healthy_turn",), TWO, 30, lambda s, d, run: "false_alarm" if d == "one" and run < 3 else "quiet")
+    text = sentence(loud)
+    assert "False alarms: one in 3 of 30 (10 %), fewest other in 0 of 30 (0 %); most in healthy_turn: 3 of 30." in text
+
+
+def test_what_is_swept_is_answered_first(told, sentence):
+    rows = told(FAULTS, TWO, 40, lambda s, d, run: "missed" if d == "one" and run % 2 else "right")
+    rows["p_gust_scale_ratio"] = (rows["run"].to_numpy(dtype=int) % 2).astype(float)
+    text = sentence(rows, swept=("p_gust_scale_ratio",))
+    assert "From gust scale 0 to 1 right goes from 100 to 0 % with one, and from 100 to 100 % with other." in text
+
+
+def test_nothing_flown_says_so(told, sentence, make_rows):
+    assert sentence(make_rows((), (), 0)) == "Not decided: no flight was flown."
+    lost = dict.fromkeys(range(3), ("infeasible", "buffet: too slow"))
+    assert "Not decided" in sentence(make_rows(("jam_a",), TWO, 3, lost)) or "No healthy" in sentence(
+        make_rows(("jam_a",), TWO, 3, lost)
+    )
+
+
+def test_who_sees_the_voted_signal_alone_is_not_ranked_before_others(told, sentence):
+    rows = told(FAULTS, TWO, 20, lambda s, d, run: "right" if d == "other" or run < 4 else "missed")
+    assert sentence(rows, voted={"other"}).split(",")[0].endswith("one")
