@@ -77,7 +77,7 @@ HARMS = {
         "error", "ValueError: cannot set WRITEABLE flag to True",
     ),
 }  # fmt: skip
-QUICK = ("raises", "exits", "segfaults", "hangs_in_c", "leaks", "prints", "closes", "writes")
+QUICK = ("raises", "exits", "segfaults", "hangs_in_c", "leaks", "prints")
 SEES = (
     "KEPT.extend(o for o in gc.get_objects() if type(o).__name__ in ('Assembly', 'Batch', 'Plan', 'Campaign', 'Flyer'))"
 )
@@ -267,3 +267,21 @@ def test_no_process_outlives_a_killed_run_by_a_second(tmp_path, jobs):
     run.wait()
     time.sleep(1.0)
     assert marked(mark) == []
+
+
+@pytest.mark.slow
+def test_a_detector_that_always_hangs_or_dies_is_given_up_soon(tmp_path):
+    always = {"hangs": "while True: pass", "exits": "os._exit(3)"}
+    bodies = {
+        name: BODY.replace("int(measured.mass_kg) == MASS", "True").replace("HARM", harm)
+        for name, harm in always.items()
+    }
+    begun, told = time.monotonic(), []
+    run_campaign(
+        read_campaign(written(tmp_path, bodies, ["voting_monitor"])), tmp_path / "out", jobs=1, notice=told.append
+    )
+    assert time.monotonic() - begun < 30.0
+    rows = load(tmp_path / "out")
+    found = {name: set(mine["status"]) for name, mine in rows.groupby("detector")}
+    assert found == {"hangs": {"timeout"}, "exits": {"crashed"}, "voting_monitor": {"ok"}}
+    assert "hangs is given up: on each of the first 2 flights timeout: a step took longer than 1 s" in "\n".join(told)

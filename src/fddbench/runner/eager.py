@@ -121,7 +121,7 @@ class DetectorFlight:
     def _verdicts(self, n_cases: int) -> Verdicts:
         """How it comes to verdicts: in a process of its own what is somebody's ordinary Python."""
         if supervisable(self.detector):
-            return Supervised(self.detector, n_cases, apart=self.commands)
+            return Supervised(self.detector, n_cases, last=self.commands)
         return verdicts_of(self.detector, n_cases)
 
     def _feed(self, batch: Batch, flights: "Sequence[DetectorFlight]") -> None:

@@ -1,5 +1,6 @@
 """Verdicts of a detector in processes of its own, and what becomes of the flights when one of these ends."""
 
+from collections import Counter
 from types import SimpleNamespace
 
 import numpy as np
@@ -28,11 +29,12 @@ def supervisable(detector: Adapted) -> bool:
 
 
 class Supervised:
-    """Steps the flights of a batch in one process, or each in its own; a `Verdicts`.
+    """Steps the flights of a batch in one process; a `Verdicts`.
 
     A process that ends takes all its flights with it. Of several flights nobody is then told to have failed: those that were
     not stepped at that moment are `lost`, the one that was is in `doubt`, and all are to be flown again, that one alone. A
-    flight alone is tried three times, on what was measured so far.
+    flight alone is tried three times, on what was measured so far; so are flights that cannot be flown again, the one that
+    ends them left out in the end.
 
     Parameters
     ----------
@@ -40,8 +42,8 @@ class Supervised:
         One that is `supervisable`.
     n_cases : int
         Flights.
-    apart : bool
-        Each flight in a process of its own: where none can be flown again.
+    last : bool
+        These flights cannot be flown again.
 
     Attributes
     ----------
@@ -51,119 +53,87 @@ class Supervised:
         Flights to be flown again, together and alone.
     """
 
-    def __init__(self, detector: Adapted, n_cases: int, *, apart: bool = False) -> None:
-        self.detector = detector
+    def __init__(self, detector: Adapted, n_cases: int, *, last: bool = False) -> None:
+        self.detector, self.shape = detector, Shape.of(detector, n_cases)
         self.raised: list[Raised | tuple[()]] = [()] * n_cases
         self.lost, self.doubt = _NONE, _NONE
-        groups = np.arange(n_cases)[:, np.newaxis] if apart else np.arange(n_cases)[np.newaxis]
-        self.groups = [_Group(detector, group) for group in groups]
-        for group in self.groups:
-            self._take(group, group.begin())
+        self.process: FlightProcess | None = None
+        self.kept: list[bytes] | None = [] if last or n_cases == 1 else None
+        self.again = self.kept is not None
+        self.deaths: Counter[int] = Counter()
+        self._tried(b"")
+
+    @property
+    def over(self) -> bool:
+        """Whether every flight has ended."""
+        return all(self.raised)
 
     def step(self, normals: Floats, measured: SimpleNamespace, active: npt.NDArray[np.bool_]) -> Verdict | None:
         """Verdict of one sample on all flights; None where all have ended."""
-        shape = Shape.of(self.detector, len(self.raised))
-        rows = np.zeros((shape.verdict_rows, shape.n_cases))
-        some = False
-        for group in self.groups:
-            own = group.flights
-            if group.over:
-                continue
-            if len(self.groups) > 1:
-                one = SimpleNamespace(**{name: values[..., own] for name, values in vars(measured).items()})
-                found, raised = group.step(normals[:, own], one, active[own])
-            else:
-                found, raised = group.step(normals, measured, active)
-            self._take(group, raised)
-            if found is not None:
-                rows[:, own] = found
-                some = True
-        return shape.read_verdict(rows) if some else None
+        if self.over:
+            return None
+        rows = self._tried(self.shape.sample(normals, measured, active))
+        return None if rows is None else self.shape.read_verdict(rows)
 
-    def _take(self, group: "_Group", raised: Raisings) -> None:
-        """Note what ended flights; a process that is gone has ended all that were still flying."""
-        for i, reason, same in raised:
-            self.raised[group.flights[i]] = (reason, same)
-        if group.died is None:
-            return
-        flying = [flight for flight in group.flights.tolist() if not self.raised[flight]]
-        for flight in flying:
-            self.raised[flight] = _LOST
-        if self.detector.one_by_one:
-            in_doubt = int(group.flights[group.died])
-            self.doubt = np.array([in_doubt])
-            self.lost = np.array([flight for flight in flying if flight != in_doubt], dtype=np.int64)
-        else:
-            self.lost = np.array(flying, dtype=np.int64)
-
-    def close(self) -> None:
-        """End its processes."""
-        for group in self.groups:
-            group.close()
-
-
-class _Group:
-    """Flights of one process."""
-
-    def __init__(self, detector: Adapted, flights: npt.NDArray[np.int64]) -> None:
-        self.detector, self.flights, self.alone = detector, flights, len(flights) == 1
-        self.shape = Shape.of(detector, len(flights))
-        self.process: FlightProcess | None = None
-        self.kept: list[bytes] | None = [] if self.alone else None
-        self.died: int | None = None
-        self.over = False
-
-    def begin(self) -> Raisings:
-        """Start the process; what is raised at once."""
-        return self._tried(b"")[1]
-
-    def step(
-        self, normals: Floats, measured: SimpleNamespace, active: npt.NDArray[np.bool_]
-    ) -> tuple[Floats | None, Raisings]:
-        """Verdict on one sample, and what has been raised now."""
-        return self._tried(self.shape.sample(normals, measured, active))
-
-    def _tried(self, message: bytes) -> tuple[Floats | None, Raisings]:
-        """Answer of the process, of a new one where it died; one flight alone is tried three times."""
-        for tried in range(1, _TRIES + 1):
+    def _tried(self, message: bytes) -> Floats | None:
+        """Answer of the process, of a new one where it died."""
+        while not self.over:
             try:
                 rows, raised = self._answer(message)
             except DiedError as died:
                 self.process = None
-                if not self.alone:
-                    self.died, self.over = died.flight, True
-                    return None, []
-                # a step that takes too long takes as long again
-                if died.kind == "timeout" or tried == _TRIES or self.kept is None:
-                    self.over = True
-                    return None, [(0, str(died), (died.kind, str(died)))]
+                self._died(died.flight, died.kind, str(died))
                 continue
-            short = [flight for flight, _, (kind, _) in raised if kind == "memory"]
-            if short and not self.alone:  # the others had to share with it
+            short = [(flight, reason) for flight, reason, (kind, _) in raised if kind == "memory"]
+            if short and len(self.raised) > 1:  # the others had to share with it
                 self.close()
-                self.died, self.over = short[0], True
-                return None, []
+                self._died(short[0][0], "memory", short[0][1])
+                continue
+            for flight, reason, same in raised:
+                self.raised[flight] = self.raised[flight] or (reason, same)
             self._keep(message)
-            self.over = self.over or (self.alone and bool(raised))
-            return rows, raised
-        raise AssertionError
+            return rows
+        return None
+
+    def _died(self, flight: int, kind: str, reason: str) -> None:
+        """Note a death: try again, leave the flight out, or give all flights up to be flown again."""
+        self.deaths[flight] += 1
+        if self.kept is not None and not self.raised[flight]:
+            # a step that takes too long takes as long again
+            if kind != "crashed" or self.deaths[flight] == _TRIES:
+                self.raised[flight] = (reason, (kind, reason))
+            return
+        flying = np.flatnonzero([not ended for ended in self.raised])
+        for each in flying.tolist():
+            self.raised[each] = (reason, (kind, reason)) if self.again else _LOST
+        if not self.again:
+            alone = self.detector.one_by_one
+            self.doubt = flying[flying == flight] if alone else _NONE
+            self.lost = flying[flying != flight] if alone else flying
 
     def _answer(self, message: bytes) -> tuple[Floats | None, Raisings]:
         if self.process is None:
-            rows: Floats | None = None
             self.process = self._started()
             raised = self.process.begin()
+            rows: Floats | None = None
             for earlier in self.kept or ():
-                rows, more = self.process.step(earlier)
+                rows, more = self.process.step(self._without_ended(earlier))
                 raised += more
             if not message:
                 return rows, raised
-        return self.process.step(message)
+        return self.process.step(self._without_ended(message))
+
+    def _without_ended(self, message: bytes) -> bytes:
+        """A sample in which flights that have ended are not active."""
+        if not self.deaths:
+            return message
+        n = len(self.raised)
+        active = np.frombuffer(message, dtype=bool, offset=len(message) - n) & [not ended for ended in self.raised]
+        return message[:-n] + active.tobytes()
 
     def _started(self) -> FlightProcess:
-        design = self.detector.design
-        assert design is not None
-        limits = design.limits
+        assert self.detector.design is not None
+        limits = self.detector.design.limits
         return FlightProcess(_stage_of(self.detector), self.shape, step_s=limits.step_s, memory_mb=limits.memory_mb)
 
     def _keep(self, message: bytes) -> None:
@@ -174,7 +144,7 @@ class _Group:
                 self.kept = None
 
     def close(self) -> None:
-        """End the process."""
+        """End its process."""
         if self.process is not None:
             self.process.close()
         self.process = None
