@@ -1,0 +1,127 @@
+"""A campaign flown until what it requires is decided: more runs in the same folder, stage by stage."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from math import ceil
+from pathlib import Path
+
+import pandas as pd
+
+from fddbench.api.campaigns import read
+from fddbench.api.campaigns import run as fly
+from fddbench.api.extending import extend
+from fddbench.api.requiring import judgements
+from fddbench.campaign.meaning import Campaign
+from fddbench.errors import FddbenchError
+from fddbench.metrics.requirements import Judgement
+from fddbench.runner.fingerprint import frozen
+from fddbench.runner.run import Progress, RunReport
+
+__all__ = ["next_runs", "run_until_decided"]
+
+_AT_MOST = 20
+"""Times the runs of the campaign that are flown where nobody says how many."""
+_RUNS = "dispersions.monte_carlo.runs"
+
+
+def run_until_decided(
+    campaign: str | Path,
+    folder: str | Path | None = None,
+    *,
+    overrides: Sequence[str] = (),
+    at_most: int | None = None,
+    jobs: int = 2,
+    fresh: bool = False,
+    backend: str = "auto",
+    progress: Callable[[Progress], None] | None = None,
+    notice: Callable[[str], None] | None = None,
+    summarised: Callable[[pd.DataFrame, pd.DataFrame], None] | None = None,
+) -> RunReport:
+    """Fly a campaign, and more runs of it in the same folder until every requirement passes or fails.
+
+    A verdict holds at any look, so looking after every stage costs nothing of its confidence, and neither does going on with a
+    folder that was flown before. The rows are those of the campaign with more runs, bit for bit.
+
+    Parameters
+    ----------
+    campaign : str or Path
+        File of a campaign, or name of a shipped one, with requirements.
+    folder : str or Path, optional
+        Where the results go, ``results/<name>`` by default; one that holds more runs of the campaign is gone on with.
+    overrides : sequence of str
+        As of `fddbench.read`.
+    at_most : int, optional
+        Runs after which it ends undecided, 20 times those of the campaign by default.
+    jobs, fresh, backend, progress, notice, summarised
+        See `fddbench.run`.
+
+    Raises
+    ------
+    FddbenchError
+        It requires nothing or draws nothing, `at_most` lies below its runs, or as `fddbench.run`.
+    """
+    own = read(campaign, overrides)
+    _able(own, at_most)
+    drawn = own.dispersions.monte_carlo
+    assert drawn is not None
+    most = at_most or _AT_MOST * drawn.runs
+    path = Path("results") / own.name if folder is None else Path(folder)
+    if not fresh:
+        own = _as_far_as_flown(own, campaign, overrides, path)
+    options = {"jobs": jobs, "backend": backend, "progress": progress, "notice": notice, "summarised": summarised}
+    report = fly(own, path, fresh=fresh, **options)  # type: ignore[arg-type]
+    flights, wall_s = report.flights, report.wall_s
+    while not report.interrupted:
+        runs = next_runs(judgements(path), most)
+        if runs is None:
+            break
+        if notice is not None:
+            notice(f"undecided; flying {runs} runs in all")
+        report = extend(path, runs=runs, **options)  # type: ignore[arg-type]
+        flights, wall_s = flights + report.flights, wall_s + report.wall_s
+    done = report.continued + report.flights
+    return replace(report, flights=flights, continued=done - flights, wall_s=wall_s)
+
+
+def next_runs(found: Sequence[Judgement], most: int) -> int | None:
+    """Runs of the next stage, None where there is to be none: all is decided, or no more runs would do.
+
+    As many as the present rate asks for and a tenth more, at least a quarter and at most as many again.
+    """
+    left = [one for one in found if one.verdict == "undecided"]
+    runs = max((one.runs_planned for one in found), default=0)
+    # of scenarios with fewer runs of their own there are no more to be had
+    able = [one for one in left if one.runs_planned == runs]
+    if not able or runs >= most:
+        return None
+    asked = max(runs if one.runs_needed is None else ceil(1.1 * one.runs_needed) for one in able)
+    return min(runs + min(max(asked, ceil(runs / 4)), runs), most)
+
+
+def _able(campaign: Campaign, at_most: int | None) -> None:
+    """Refuse what cannot be decided by more runs.
+
+    Raises
+    ------
+    FddbenchError
+        It cannot.
+    """
+    drawn = campaign.dispersions.monte_carlo
+    if not campaign.requirements:
+        raise FddbenchError(f"nothing to decide: {campaign.path} has no requirements; write them into it")
+    if drawn is None:
+        raise FddbenchError(f"{campaign.path} draws nothing (it has no monte_carlo), so it has no runs to add")
+    if at_most is not None and at_most < drawn.runs:
+        raise FddbenchError(
+            f"at most {at_most} runs, but the campaign itself has {drawn.runs}; allow more, or --set {_RUNS}="
+        )
+
+
+def _as_far_as_flown(own: Campaign, campaign: str | Path, overrides: Sequence[str], folder: Path) -> Campaign:
+    """The campaign with the runs of its folder of results, where an earlier run has added some."""
+    if not (folder / "provenance.json").is_file():
+        return own
+    there, here = frozen(folder).dispersions.monte_carlo, own.dispersions.monte_carlo
+    if there is None or here is None or there.runs <= here.runs:
+        return own
+    return read(campaign, [*overrides, f"{_RUNS}={there.runs}"])
