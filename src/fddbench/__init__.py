@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from fddbench.api.bounds import bounds
     from fddbench.api.campaigns import plan, read, run
+    from fddbench.api.compacting import compact
     from fddbench.api.comparing import compare
     from fddbench.api.curves import operating_curve
     from fddbench.api.databases import duckdb
@@ -38,6 +39,7 @@ __all__ = [
     "alarms",
     "bounds",
     "columns",
+    "compact",
     "compare",
     "dataset",
     "detectable",
@@ -76,6 +78,7 @@ _ROOMS = {
     **dict.fromkeys(("alarms", "columns", "detectable", "load", "load_events"), "tables"),
     **dict.fromkeys(("score", "signals"), "flights"),
     **dict.fromkeys(("reconstruction_picture", "tradeoff_picture"), "pictures"),
+    "compact": "compacting",
     "compare": "comparing",
     "bounds": "bounds",
     "dataset": "datasets",

@@ -14,6 +14,7 @@ import numpy.typing as npt
 from fddbench.campaign.meaning import Campaign
 from fddbench.errors import ResultsWarning, warn
 from fddbench.results import manifest
+from fddbench.results.compacting import ENOUGH, compact
 from fddbench.results.folder import claim, provenance_of, refuse_foreign
 from fddbench.results.lock import locked
 from fddbench.results.mending import mend
@@ -122,6 +123,8 @@ def run_campaign(
         interrupted = any(_fly_part(flyer, work, part, jobs=jobs, chunk=chunk, told=told) for part in parts)
         if interrupted:  # perhaps between the listing of a shard and its count
             told.flown = plan.n_cases - sum(len(part.cases) for part in _left(folder, None, say)[0]) - told.before
+        else:
+            _few_files(folder, fingerprint.sha256, say)
     return RunReport(
         folder=folder,
         flights=told.flown,
@@ -131,6 +134,14 @@ def run_campaign(
         interrupted=interrupted,
         wall_s=time.monotonic() - begun,
     )
+
+
+def _few_files(folder: Path, fingerprint: str, say: Callable[[str], None]) -> None:
+    """Join the many small shards of a large campaign; a disk that has no room for it is no failure of the run."""
+    try:
+        compact(folder, only=fingerprint, least=ENOUGH)
+    except OSError as error:
+        say(f"{folder}: its shards stay as small as they are ({error.strerror}); join them with `fddbench compact`")
 
 
 @dataclass(frozen=True)
