@@ -94,7 +94,7 @@ def next_runs(found: Sequence[Judgement], most: int) -> int | None:
     able = [one for one in left if one.runs_planned == runs]
     if not able or runs >= most:
         return None
-    asked = max(runs if one.runs_needed is None else ceil(1.1 * one.runs_needed) for one in able)
+    asked = max(runs if one.runs_needed is None else ceil(one.runs_needed * 11 / 10) for one in able)
     return min(runs + min(max(asked, ceil(runs / 4)), runs), most)
 
 

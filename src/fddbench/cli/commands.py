@@ -6,7 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fddbench.cli.requiring import all_pass, refuse_unstated, until_decided
+from fddbench.cli.requiring import all_pass, refuse_unstated, until_decided, write_ci
 from fddbench.errors import FddbenchError
 
 if TYPE_CHECKING:
@@ -25,8 +25,8 @@ def run(args: argparse.Namespace) -> int:
 
     Goes on where an earlier run of the same campaign stopped. Ctrl-C stops after saving what is finished. Of several campaigns
     one with a mistake does not keep the others from flying; the exit code is the worst of theirs. What a campaign requires is
-    judged; with --require the run ends with 1 unless all of it is shown to be met; with --until decided more runs are flown until
-    each verdict is pass or fail.
+    judged; with --require the run ends with 1 unless all of it is shown to be met; with --until decided more runs are
+    flown until each verdict is pass or fail.
     """
     if len(args.campaigns) == 1:
         return _run(args.campaigns[0], args)
@@ -240,10 +240,12 @@ def init(args: argparse.Namespace) -> int:
 
     A detector, one that is trained, a benchmark, a fault or a campaign. `--benchmark recorded` writes logs and what maps them.
 
-    What is there already is left alone.
+    What is there already is left alone. --ci writes a workflow of GitHub that judges what the campaigns in DIR require.
     """
     from fddbench.api.starting import STARTERS, copy_shipped, start
 
+    if args.ci:
+        return write_ci(args.folder)
     for what in STARTERS:
         name = getattr(args, what)
         if name is not None:

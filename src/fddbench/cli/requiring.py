@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from fddbench.metrics.requirements import Judgement
     from fddbench.runner.run import RunReport
 
-__all__ = ["all_pass", "arguments", "leave", "refuse_unstated", "until_decided"]
+__all__ = ["all_pass", "arguments", "leave", "refuse_unstated", "until_decided", "write_ci"]
 
 
 def arguments(run: argparse.ArgumentParser) -> None:
@@ -67,6 +67,14 @@ def until_decided(path: Path, args: argparse.Namespace) -> "Callable[..., RunRep
     from fddbench.api.deciding import run_until_decided
 
     return partial(run_until_decided, path, overrides=args.overrides, at_most=args.at_most)
+
+
+def write_ci(folder: Path) -> int:
+    """Write a workflow that judges the campaigns in a folder."""
+    from fddbench.api.continuous import write_workflow
+
+    print(write_workflow(folder))
+    return 0
 
 
 def all_pass(folder: Path, *, junit: Path | None = None, job: bool = False) -> bool:
