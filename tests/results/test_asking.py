@@ -42,12 +42,25 @@ def test_filters_give_the_rows_of_the_whole_table_in_its_order(flown, filters, s
         ([("run", "<")], r"condition 1: need \(column, operator, value\)"),
         ([("scenario", "in", "jam")], "scenario in needs a list of values, got 'jam'"),
         ([("run", "<", None)], "null is compared with = and != alone"),
+        ([("run", "in", [1, "two"])], r"condition 1: run in \[1, 'two'\] compares with no column"),
+        ([("onset_s", "=", float("nan"))], "onset_s = nan: no column holds it; what is not there is None"),
+        ([[("run", "=", 1)]], r"condition 1: need \(column, operator, value\)"),
+        ({"run": 3}, "filters are a list"),
         ([("run", "=", "three")], r"a value does not compare with its column \(run is int64\)"),
     ],
 )
 def test_a_filter_that_is_none_is_met_with_words(flown, filters, told):
     with pytest.raises(ResultsError, match=told):
         fddbench.load(flown, filters=filters)
+
+
+def test_a_column_that_is_none_is_met_with_words(flown):
+    with pytest.raises(
+        ResultsError, match=r"no column 'cases'. Did you mean 'case'\? And no 'x'. Known: case, scenario"
+    ):
+        fddbench.load(flown, ["cases", "run", "x"])
+    with pytest.raises(ResultsError, match=r"columns are a list of names, \['case'\]; got 'case'"):
+        fddbench.load(flown, "case")
 
 
 def test_all_wrong_conditions_are_told_at_once(flown):

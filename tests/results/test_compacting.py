@@ -6,7 +6,7 @@ import shutil
 
 import pandas as pd
 import pytest
-from tests.results.conftest import everything, fly
+from tests.results.conftest import TEXT, everything, fly
 
 import fddbench
 from fddbench.campaign.load import read_campaign
@@ -157,3 +157,20 @@ def test_a_link_is_not_followed(out, tmp_path):
     with pytest.raises(ResultsError, match="is a link"):
         fddbench.compact(out)
     assert everything(tmp_path / "elsewhere") == before
+
+
+@pytest.mark.slow
+def test_a_hundred_thousand_rows_end_in_one_shard_and_are_those_of_many(tmp_path, monkeypatch):
+    path = tmp_path / "many.yaml"
+    path.write_text(TEXT.replace("runs: 6", "runs: 50000").replace("duration_s: 1.0", "duration_s: 0.5"))
+    many = read_campaign(path, ["scenarios.1.faults.0.end_s=0.4"])
+    run.run_campaign(many, tmp_path / "joined")
+    assert [sum(shard.statuses.values()) for shard in manifest.shards(tmp_path / "joined")] == [100_000]
+    monkeypatch.setattr(run, "ENOUGH", 100_001)
+    run.run_campaign(many, tmp_path / "small")
+    assert len(manifest.shards(tmp_path / "small")) > 90
+    same(tables(tmp_path / "joined"), tables(tmp_path / "small"))
+    some = [("scenario", "=", "jam"), ("p_mass_kg", "<", 181e3)]
+    few = fddbench.load(tmp_path / "joined", filters=some)
+    pd.testing.assert_frame_equal(few, fddbench.load(tmp_path / "small", filters=some), check_exact=True)
+    assert 1000 < len(few) < 1500

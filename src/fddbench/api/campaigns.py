@@ -10,6 +10,8 @@ from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.plan import Plan
 from fddbench.campaign.plan import plan as planned
+from fddbench.campaign.selection import selected
+from fddbench.runner.engines import Engine
 from fddbench.runner.run import Progress, RunReport, run_campaign
 
 __all__ = ["plan", "read", "run"]
@@ -54,6 +56,10 @@ def run(
     jobs: int = 2,
     fresh: bool = False,
     backend: str = "auto",
+    engine: str = "auto",
+    address: str | None = None,
+    only: str | Sequence[str] = (),
+    retry_failed: bool = False,
     progress: Callable[[Progress], None] | None = None,
     notice: Callable[[str], None] | None = None,
     summarised: Callable[[pd.DataFrame, pd.DataFrame], None] | None = None,
@@ -66,8 +72,15 @@ def run(
         As read, or what `read` takes.
     folder : str or Path, optional
         Where the results go, ``results/<name>`` by default.
-    jobs, fresh, backend, progress, notice
+    jobs, fresh, backend, retry_failed, progress, notice
         See `fddbench.runner.run.run_campaign`.
+    engine : {"auto", "threads", "loky", "dask", "ray"}
+        Who flies; no part of any result. ``auto``: threads where compiled code flies, else processes.
+    address : str, optional
+        Of a dask or ray cluster, ``tcp://host:8786``; by default one of this machine for the time of the run.
+    only : str or sequence of str
+        Fly a part, ``"scenario=jam_a,detector=voting_monitor,run=0-99"``; of several texts everything that any of them names.
+        The folder holds a part of its campaign until the rest is flown.
     summarised : callable, optional
         Called at the end of a run that was not interrupted with what ``fddbench.summary`` and ``fddbench.alarms`` give.
 
@@ -78,7 +91,18 @@ def run(
     """
     own = campaign if isinstance(campaign, Campaign) else read(campaign)
     where = Path("results") / own.name if folder is None else Path(folder)
-    report = run_campaign(own, where, jobs=jobs, fresh=fresh, backend=backend, progress=progress, notice=notice)
+    words = [only] if isinstance(only, str) else only
+    report = run_campaign(
+        own,
+        where,
+        engine=Engine(name=engine, jobs=jobs, address=address),
+        fresh=fresh,
+        backend=backend,
+        wanted=selected(planned(own), words) if words else None,
+        retry_failed=retry_failed,
+        progress=progress,
+        notice=notice,
+    )
     if not report.interrupted:
         tables = leave_summary(where)
         if summarised is not None:

@@ -7,10 +7,10 @@ from fddbench import __version__
 from fddbench.cli import aircraft, commands, completing, counting, data_sets, designing, exporting, looking, requiring
 from fddbench.cli.added import add
 from fddbench.cli.checked_numbers import flights as _flights
-from fddbench.cli.checked_numbers import jobs as _jobs
 from fddbench.cli.checked_numbers import probability as _probability
 from fddbench.cli.checked_numbers import share as _share
 from fddbench.cli.folder_arguments import growing_arguments, looking_arguments, trusting, verify_arguments
+from fddbench.cli.run_arguments import run_arguments
 
 __all__ = ["parser"]
 
@@ -26,7 +26,11 @@ def parser() -> argparse.ArgumentParser:
     top.add_argument("--version", action="version", version=f"fddbench {__version__}")
     subs = top.add_subparsers(metavar="COMMAND")
 
-    _running(add(subs, "run", commands.run))
+    run = add(subs, "run", commands.run)
+    run_arguments(run)
+    _set(run)
+    requiring.arguments(run)
+
     _reading(subs)
     looking_arguments(subs)
     verify_arguments(add(subs, "verify", looking.verify))
@@ -60,27 +64,6 @@ def parser() -> argparse.ArgumentParser:
     _asking(subs)
     completing.attach(top)
     return top
-
-
-def _running(run: argparse.ArgumentParser) -> None:
-    run.add_argument(
-        "campaigns", type=Path, nargs="+", metavar="CAMPAIGN.yaml", help="campaign files, or names of shipped ones"
-    )
-    _set(run)
-    run.add_argument(
-        "--out", type=Path, metavar="DIR", help="folder of results (default: results/<name of the campaign>)"
-    )
-    run.add_argument(
-        "--jobs", type=_jobs, default=2, metavar="N", help="worker processes (default: 2); no part of any result"
-    )
-    run.add_argument("--fresh", action="store_true", help="replace what the folder holds")
-    run.add_argument(
-        "--backend", choices=("auto", "llvm", "numpy"), default="auto",
-        help="compiled where llvmlite is installed (auto), always, or never; no part of any result",
-    )  # fmt: skip
-    run.add_argument("--quiet", action="store_true", help="no progress")
-    run.add_argument("--wide", action="store_true", help="every column of the table, as wide as it is")
-    requiring.arguments(run)
 
 
 def _reading(subs) -> None:  # type: ignore[no-untyped-def]

@@ -14,7 +14,7 @@ __all__ = ["RESERVED", "clear", "refuse_foreign", "sweep"]
 _JUDGED = "requirements.junit.xml"
 _FIXED = (
     *("campaign.yaml", "manifest.jsonl", "report.html", "summary.parquet", _JUDGED),
-    *("provenance.json", ".lock", ".pid"),
+    *("provenance.json", ".lock", ".pid", ".token"),
 )
 RESERVED = frozenset({*_FIXED, "rows", "events"})
 """Names in a folder of results that no file beside a campaign can have when it travels there."""
@@ -146,5 +146,7 @@ def _is_listed(folder: Path) -> bool:
 def _is_blank(folder: Path, names: Collection[str]) -> bool:
     """Whether nothing is in a folder but what the first moments of a run leave there."""
     manifest = folder / "manifest.jsonl"
-    begun = {".lock", ".pid"} | ({"manifest.jsonl"} if manifest.is_file() and not manifest.stat().st_size else set())
+    begun = {".lock", ".pid", ".token"} | (
+        {"manifest.jsonl"} if manifest.is_file() and not manifest.stat().st_size else set()
+    )
     return all(name in begun or _LEFT.fullmatch(name) for name in names)

@@ -12,7 +12,7 @@ import pyarrow as pa
 import pyarrow.compute as pc
 
 from fddbench.errors import PartialResultsWarning, ResultsError, warn
-from fddbench.results.filters import Condition, Filter, filter_of
+from fddbench.results.filters import Condition, Filter, filter_of, require_columns
 from fddbench.results.folder import provenance_of
 from fddbench.results.manifest import shards
 from fddbench.results.schema import CASE, EVENTS, rows_schema
@@ -94,7 +94,10 @@ def read_rows(
     ResultsError
         As `load`.
     """
-    chosen = None if filters is None else filter_of(filters, column_names(folder))
+    known = column_names(folder)
+    if columns is not None and known:
+        require_columns(columns, known)
+    chosen = filter_of(filters, known)
     return _sorted(folder, "rows", columns, chosen)
 
 
