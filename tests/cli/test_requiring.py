@@ -174,7 +174,7 @@ def test_it_ends_undecided_after_so_many_runs(path, tmp_path, capsys):
         ([("undecided", 5000, 100)], 1000, 200),
         ([("undecided", None, 100)], 150, 150),
         ([("undecided", 50, 100)], 100, None),
-        ([("undecided", 50, 20), ("pass", 0, 100)], 1000, None),  # a scenario with runs of its own
+        ([("undecided", 50, 20), ("undecided", 5, 200)], 1000, None),  # a scenario with runs of its own
     ],
 )
 def test_how_many_are_flown_next(path, left, most, runs):
@@ -184,7 +184,7 @@ def test_how_many_are_flown_next(path, left, most, runs):
 
     base = judgements(path.parent / "out")[0]
     found = [replace(base, verdict=verdict, runs_needed=need, runs_planned=planned) for verdict, need, planned in left]
-    assert next_runs(found, most) == runs
+    assert next_runs(found, 100, most) == runs
 
 
 def test_a_comparison_ends_with_1_where_what_is_stated_got_worse(path, capsys):

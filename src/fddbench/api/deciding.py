@@ -4,18 +4,18 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import ceil
 from pathlib import Path
-
-import pandas as pd
+from typing import Any
 
 from fddbench.api.campaigns import read
 from fddbench.api.campaigns import run as fly
-from fddbench.api.extending import extend
 from fddbench.api.requiring import judgements
 from fddbench.campaign.meaning import Campaign
+from fddbench.campaign.rules.model import MonteCarlo
 from fddbench.errors import FddbenchError
 from fddbench.metrics.requirements import Judgement
 from fddbench.runner.fingerprint import frozen
-from fddbench.runner.run import Progress, RunReport
+from fddbench.runner.growing import grow_to
+from fddbench.runner.run import RunReport
 
 __all__ = ["next_runs", "run_until_decided"]
 
@@ -30,12 +30,9 @@ def run_until_decided(
     *,
     overrides: Sequence[str] = (),
     at_most: int | None = None,
-    jobs: int = 2,
     fresh: bool = False,
-    backend: str = "auto",
-    progress: Callable[[Progress], None] | None = None,
     notice: Callable[[str], None] | None = None,
-    summarised: Callable[[pd.DataFrame, pd.DataFrame], None] | None = None,
+    **options: Any,
 ) -> RunReport:
     """Fly a campaign, and more runs of it in the same folder until every requirement passes or fails.
 
@@ -52,59 +49,81 @@ def run_until_decided(
         As of `fddbench.read`.
     at_most : int, optional
         Runs after which it ends undecided, 20 times those of the campaign by default.
-    jobs, fresh, backend, progress, notice, summarised
+    fresh, notice
         See `fddbench.run`.
+    options
+        All others of `fddbench.run` but ``only``: verdicts are on whole runs.
 
     Raises
     ------
     FddbenchError
         It requires nothing or draws nothing, `at_most` lies below its runs, or as `fddbench.run`.
     """
+    if options.get("only"):
+        raise FddbenchError(
+            "verdicts are on whole runs: fly them all, or judge what was flown without going on until decided"
+        )
     own = read(campaign, overrides)
-    _able(own, at_most)
-    drawn = own.dispersions.monte_carlo
-    assert drawn is not None
+    drawn = _drawn(own, at_most)
     most = at_most or _AT_MOST * drawn.runs
     path = Path("results") / own.name if folder is None else Path(folder)
     if not fresh:
         own = _as_far_as_flown(own, campaign, overrides, path)
-    options = {"jobs": jobs, "backend": backend, "progress": progress, "notice": notice, "summarised": summarised}
-    report = fly(own, path, fresh=fresh, **options)  # type: ignore[arg-type]
+    flown = own.dispersions.monte_carlo.runs if own.dispersions.monte_carlo else 1
+    report = fly(own, path, fresh=fresh, notice=notice, **options)
     flights, wall_s = report.flights, report.wall_s
     while not report.interrupted:
-        runs = next_runs(judgements(path), most)
+        found = judgements(path)
+        runs = next_runs(found, flown, most)
         if runs is None:
+            _tell_the_rest(found, flown, notice)
             break
         if notice is not None:
             notice(f"undecided; flying {runs} runs in all")
-        report = extend(path, runs=runs, **options)  # type: ignore[arg-type]
+        larger, flown = read(campaign, [*overrides, f"{_RUNS}={runs}"]), runs
+        grow_to(path, frozen(path), larger)
+        report = fly(larger, path, notice=notice, **options)
         flights, wall_s = flights + report.flights, wall_s + report.wall_s
     done = report.continued + report.flights
     return replace(report, flights=flights, continued=done - flights, wall_s=wall_s)
 
 
-def next_runs(found: Sequence[Judgement], most: int) -> int | None:
+def next_runs(found: Sequence[Judgement], runs: int, most: int) -> int | None:
     """Runs of the next stage, None where there is to be none: all is decided, or no more runs would do.
 
     As many as the present rate asks for and a tenth more, at least a quarter and at most as many again.
+
+    Parameters
+    ----------
+    found : sequence of Judgement
+        On the runs of this stage.
+    runs, most : int
+        Monte-Carlo runs of this stage, and largest number of them.
     """
-    left = [one for one in found if one.verdict == "undecided"]
-    runs = max((one.runs_planned for one in found), default=0)
-    # of scenarios with fewer runs of their own there are no more to be had
-    able = [one for one in left if one.runs_planned == runs]
+    # of scenarios with runs of their own there are no more to be had
+    able = [one for one in found if one.verdict == "undecided" and one.runs_planned == runs]
     if not able or runs >= most:
         return None
     asked = max(runs if one.runs_needed is None else ceil(one.runs_needed * 11 / 10) for one in able)
     return min(runs + min(max(asked, ceil(runs / 4)), runs), most)
 
 
-def _able(campaign: Campaign, at_most: int | None) -> None:
-    """Refuse what cannot be decided by more runs.
+def _tell_the_rest(found: Sequence[Judgement], runs: int, notice: Callable[[str], None] | None) -> None:
+    """Why it ends although something is undecided."""
+    own = dict.fromkeys(one.name for one in found if one.verdict == "undecided" and one.runs_planned != runs)
+    if own and notice is not None:
+        notice(
+            f"undecided stays {', '.join(own)}: its scenarios have `runs:` of their own, which do not grow; remove them"
+        )
+
+
+def _drawn(campaign: Campaign, at_most: int | None) -> MonteCarlo:
+    """What a campaign draws, if more runs of it can decide what it requires.
 
     Raises
     ------
     FddbenchError
-        It cannot.
+        They cannot.
     """
     drawn = campaign.dispersions.monte_carlo
     if not campaign.requirements:
@@ -115,6 +134,7 @@ def _able(campaign: Campaign, at_most: int | None) -> None:
         raise FddbenchError(
             f"at most {at_most} runs, but the campaign itself has {drawn.runs}; allow more, or --set {_RUNS}="
         )
+    return drawn
 
 
 def _as_far_as_flown(own: Campaign, campaign: str | Path, overrides: Sequence[str], folder: Path) -> Campaign:
