@@ -10,7 +10,6 @@ from fddbench.api.campaigns import read
 from fddbench.api.campaigns import run as fly
 from fddbench.api.requiring import judgements
 from fddbench.campaign.meaning import Campaign
-from fddbench.campaign.rules.model import MonteCarlo
 from fddbench.errors import FddbenchError
 from fddbench.metrics.requirements import Judgement
 from fddbench.runner.fingerprint import frozen
@@ -64,15 +63,14 @@ def run_until_decided(
             "verdicts are on whole runs: fly them all, or judge what was flown without going on until decided"
         )
     own = read(campaign, overrides)
-    drawn = _drawn(own, at_most)
-    most = at_most or _AT_MOST * drawn.runs
+    most = _most(own, at_most)
     path = Path("results") / own.name if folder is None else Path(folder)
     if not fresh:
         own = _as_far_as_flown(own, campaign, overrides, path)
     flown = own.dispersions.monte_carlo.runs if own.dispersions.monte_carlo else 1
     report = fly(own, path, fresh=fresh, notice=notice, **options)
-    flights, wall_s = report.flights, report.wall_s
-    while not report.interrupted:
+    done, flights, wall_s = report, report.flights, report.wall_s
+    while not done.interrupted:
         found = judgements(path)
         runs = next_runs(found, flown, most)
         if runs is None:
@@ -82,10 +80,9 @@ def run_until_decided(
             notice(f"undecided; flying {runs} runs in all")
         larger, flown = read(campaign, [*overrides, f"{_RUNS}={runs}"]), runs
         grow_to(path, frozen(path), larger)
-        report = fly(larger, path, notice=notice, **options)
-        flights, wall_s = flights + report.flights, wall_s + report.wall_s
-    done = report.continued + report.flights
-    return replace(report, flights=flights, continued=done - flights, wall_s=wall_s)
+        done = fly(larger, path, notice=notice, **options)
+        flights, wall_s = flights + done.flights, wall_s + done.wall_s
+    return replace(done, flights=flights, continued=report.continued, wall_s=wall_s)
 
 
 def next_runs(found: Sequence[Judgement], runs: int, most: int) -> int | None:
@@ -117,8 +114,8 @@ def _tell_the_rest(found: Sequence[Judgement], runs: int, notice: Callable[[str]
         )
 
 
-def _drawn(campaign: Campaign, at_most: int | None) -> MonteCarlo:
-    """What a campaign draws, if more runs of it can decide what it requires.
+def _most(campaign: Campaign, at_most: int | None) -> int:
+    """Runs after which it ends, if more runs of the campaign can decide what it requires.
 
     Raises
     ------
@@ -134,7 +131,7 @@ def _drawn(campaign: Campaign, at_most: int | None) -> MonteCarlo:
         raise FddbenchError(
             f"at most {at_most} runs, but the campaign itself has {drawn.runs}; allow more, or --set {_RUNS}="
         )
-    return drawn
+    return at_most or _AT_MOST * drawn.runs
 
 
 def _as_far_as_flown(own: Campaign, campaign: str | Path, overrides: Sequence[str], folder: Path) -> Campaign:
