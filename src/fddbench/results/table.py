@@ -127,15 +127,15 @@ def read_in_parts(folder: Path, columns: Sequence[str]) -> Iterator[pd.DataFrame
         yield _sorted(folder, "rows", columns, filter_of([("detector", "=", detector)], ["detector"]))
 
 
-def read_events(folder: Path) -> pd.DataFrame:
-    """Events as of `load_events`, for those who say themselves whether they are all.
+def read_events(folder: Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
+    """Events as of `load_events`, for those who say themselves whether they are all; only some columns.
 
     Raises
     ------
     ResultsError
         As `load`.
     """
-    return _sorted(folder, "events")
+    return _sorted(folder, "events", columns)
 
 
 def named(table: pa.Table) -> pa.Table:
