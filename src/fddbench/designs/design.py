@@ -14,7 +14,7 @@ from fddbench.campaign.reading.document import Document, refuse
 from fddbench.campaign.reading.yaml_nodes import read_yaml
 from fddbench.campaign.rules.messages import mistakes_of
 from fddbench.campaign.rules.wording import shown
-from fddbench.designs.design_file import DesignFile, TunedOn
+from fddbench.designs.design_file import DesignFile, Limits, TunedOn
 from fddbench.errors import DesignError, FddbenchError, Mistake
 from fddbench.interfaces import Bus, Detector
 from fddbench.kinds import Kind
@@ -86,6 +86,8 @@ class Design:
         Folder of C beside it that flies in its place; "" for none.
     symbols : str, list or None
         Library of operations that it must keep to.
+    limits : Limits
+        What a step may take where the detector is ordinary Python.
     """
 
     name: str
@@ -106,6 +108,7 @@ class Design:
     every: int = 1
     code: str = ""
     symbols: Any = None
+    limits: Limits = field(default_factory=Limits)
 
     @property
     def base(self) -> str:
@@ -188,6 +191,7 @@ def read_design(path: Path, *, where: str = "") -> Design:
         every=written.every,
         code=written.code,
         symbols=written.symbols,
+        limits=written.limits,
     )
 
 
