@@ -1,8 +1,8 @@
 """Fault injection: of 80 flights one meets a step that does harm; 79 rows are those of the same detector without it.
 
-Seen to fail with the mechanism switched off (`supervisable` saying no): the run ends with a step that exits, segfaults, aborts,
-closes files, sends itself a signal or kills its parent; it never ends with one that hangs; a fork writes everything twice; a leak
-takes what there is; 20 MB are printed; the working folder has moved; the truth is in reach. What raises is a row either way.
+Seen to fail with the mechanism off (`supervisable` saying no): the run ends with a step that exits, segfaults, aborts,
+closes files, sends itself a signal or kills its parent; with one that hangs it never ends; a fork writes all twice; a leak
+takes what there is; 20 MB are printed; the working folder moves; the truth is in reach. What raises is a row either way.
 """
 
 import os
