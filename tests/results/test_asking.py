@@ -42,12 +42,25 @@ def test_filters_give_the_rows_of_the_whole_table_in_its_order(flown, filters, s
         ([("run", "<")], r"condition 1: need \(column, operator, value\)"),
         ([("scenario", "in", "jam")], "scenario in needs a list of values, got 'jam'"),
         ([("run", "<", None)], "null is compared with = and != alone"),
+        ([("run", "in", [1, "two"])], r"condition 1: run in \[1, 'two'\] compares with no column"),
+        ([("onset_s", "=", float("nan"))], "onset_s = nan: no column holds it; what is not there is None"),
+        ([[("run", "=", 1)]], r"condition 1: need \(column, operator, value\)"),
+        ({"run": 3}, "filters are a list"),
         ([("run", "=", "three")], r"a value does not compare with its column \(run is int64\)"),
     ],
 )
 def test_a_filter_that_is_none_is_met_with_words(flown, filters, told):
     with pytest.raises(ResultsError, match=told):
         fddbench.load(flown, filters=filters)
+
+
+def test_a_column_that_is_none_is_met_with_words(flown):
+    with pytest.raises(
+        ResultsError, match=r"no column 'cases'. Did you mean 'case'\? And no 'x'. Known: case, scenario"
+    ):
+        fddbench.load(flown, ["cases", "run", "x"])
+    with pytest.raises(ResultsError, match=r"columns are a list of names, \['case'\]; got 'case'"):
+        fddbench.load(flown, "case")
 
 
 def test_all_wrong_conditions_are_told_at_once(flown):
@@ -85,7 +98,8 @@ def test_a_data_base_numbers_points_as_the_campaign_of_today(tmp_path):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         loaded = fddbench.load(out, ["case", "point", "p_mass_kg"])
-        found = fddbench.duckdb(out).sql('SELECT "case", point, p_mass_kg FROM rows ORDER BY point').df()
+        base = fddbench.duckdb(out)
+        found = base.sql('SELECT "case", point, p_mass_kg FROM rows ORDER BY point').df()
     assert loaded["p_mass_kg"].tolist() == [190000, 210000, 220000] * 2
     assert np.array_equal(found.to_numpy(), loaded.to_numpy())
 
@@ -95,7 +109,8 @@ def test_a_data_base_of_a_damaged_or_partial_folder_says_so(out, monkeypatch):
     list_of_shards = out / "manifest.jsonl"
     list_of_shards.write_bytes(b"".join(list_of_shards.read_bytes().splitlines(keepends=True)[:2]))
     with pytest.warns(PartialResultsWarning, match="partial, it holds 4 of 12 flights"):
-        assert len(fddbench.duckdb(out).sql("FROM rows")) == 4
+        base = fddbench.duckdb(out)
+    assert len(base.sql("FROM rows")) == 4
     for path in (out / "rows").glob("*.parquet"):
         path.write_bytes(path.read_bytes() + b"x")
     with pytest.raises(ResultsError, match="is not the file that was written"):

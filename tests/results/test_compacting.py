@@ -3,10 +3,11 @@
 import os
 import random
 import shutil
+from dataclasses import replace
 
 import pandas as pd
 import pytest
-from tests.results.conftest import everything, fly
+from tests.results.conftest import TEXT, everything, fly
 
 import fddbench
 from fddbench.campaign.load import read_campaign
@@ -118,6 +119,20 @@ def test_shards_of_another_stage_or_other_detectors_are_not_mixed(out):
     assert not fddbench.verify(out).wrong
 
 
+def test_few_shards_with_failed_rows_stay_as_they_are(out):
+    first, *rest = manifest.shards(out)
+    manifest.keep(out, [replace(first, statuses={"error": 1, "ok": 1}), *rest])
+    assert compacting.compact(out).after == 2
+    assert first.rows in [shard.rows for shard in manifest.shards(out)]
+
+
+def test_where_most_fail_all_are_joined(out):
+    *most, last = manifest.shards(out)
+    manifest.keep(out, [*[replace(shard, statuses={"error": 2}) for shard in most], last])
+    (joined,) = manifest.shards(out) if compacting.compact(out).after == 1 else [None]
+    assert joined.statuses == {"error": 10, "ok": 2}
+
+
 def test_a_large_run_joins_what_it_flew_and_a_small_one_does_not(campaign, flown, tmp_path, monkeypatch):
     assert len(manifest.shards(flown)) == 6
     monkeypatch.setattr(run, "ENOUGH", 12)
@@ -157,3 +172,20 @@ def test_a_link_is_not_followed(out, tmp_path):
     with pytest.raises(ResultsError, match="is a link"):
         fddbench.compact(out)
     assert everything(tmp_path / "elsewhere") == before
+
+
+@pytest.mark.slow
+def test_a_hundred_thousand_rows_end_in_one_shard_and_are_those_of_many(tmp_path, monkeypatch):
+    path = tmp_path / "many.yaml"
+    path.write_text(TEXT.replace("runs: 6", "runs: 50000").replace("duration_s: 1.0", "duration_s: 0.5"))
+    many = read_campaign(path, ["scenarios.1.faults.0.end_s=0.4"])
+    run.run_campaign(many, tmp_path / "joined")
+    assert [sum(shard.statuses.values()) for shard in manifest.shards(tmp_path / "joined")] == [100_000]
+    monkeypatch.setattr(run, "ENOUGH", 100_001)
+    run.run_campaign(many, tmp_path / "small")
+    assert len(manifest.shards(tmp_path / "small")) > 90
+    same(tables(tmp_path / "joined"), tables(tmp_path / "small"))
+    some = [("scenario", "=", "jam"), ("p_mass_kg", "<", 181e3)]
+    few = fddbench.load(tmp_path / "joined", filters=some)
+    pd.testing.assert_frame_equal(few, fddbench.load(tmp_path / "small", filters=some), check_exact=True)
+    assert 1000 < len(few) < 1500

@@ -71,8 +71,17 @@ def parser() -> argparse.ArgumentParser:
 def _reading(subs) -> None:  # type: ignore[no-untyped-def]
     """Commands that read a folder of results."""
     report = add(subs, "report", commands.report)
-    report.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
-    report.add_argument("--output", type=Path, metavar="FILE", help="page to write (default: DIR/report.html)")
+    report.add_argument(
+        "folders", type=Path, nargs="*", metavar="DIR",
+        help="folder of results (default: the newest under results/); of several their comparison",
+    )  # fmt: skip
+    report.add_argument("--no-replay", action="store_true", help="no signals and no bound: nothing is flown again")
+    report.add_argument(
+        "--output",
+        type=Path,
+        metavar="FILE",
+        help="page to write (default: DIR/report.html; of several comparison.html beside the first)",
+    )
 
     trusting(report)
 

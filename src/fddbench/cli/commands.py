@@ -166,10 +166,13 @@ def _failures(folder: Path) -> None:
 
 
 def report(args: argparse.Namespace) -> int:
-    """Write the page of a folder of results: one HTML file that needs no network."""
+    """Write the page of a folder of results: one HTML file that needs no network.
+
+    Without a folder that of the newest under results/; of several their comparison, flight by flight where they hold the same.
+    """
     from fddbench.api.pages import report as write
 
-    print(write(args.folder, args.output))
+    print(write(args.folders or None, args.output, replay=not args.no_replay))
     return 0
 
 

@@ -1,4 +1,4 @@
-"""Which rows are read: conditions on columns, as a list of (column, operator, value)."""
+"""Which columns and rows are read: names, and conditions as a list of (column, operator, value)."""
 
 import operator
 from collections.abc import Callable, Mapping, Sequence
@@ -11,7 +11,7 @@ import pyarrow.compute as pc
 
 from fddbench.errors import ResultsError, did_you_mean
 
-__all__ = ["Condition", "Filter", "filter_of"]
+__all__ = ["Condition", "Filter", "filter_of", "require_columns"]
 
 Condition = tuple[str, str, Any]
 
@@ -57,6 +57,22 @@ class Filter:
             raise ResultsError(f"filters: a value does not compare with its column ({types}): {error}") from error
 
 
+def require_columns(columns: Sequence[str], known: Sequence[str]) -> None:
+    """Refuse names that are none of the columns that there are.
+
+    Raises
+    ------
+    ResultsError
+        All of them are named, with what they may have meant.
+    """
+    if isinstance(columns, str):
+        raise ResultsError(f"columns are a list of names, [{columns!r}]; got {columns!r}")
+    strange = [name for name in columns if name not in known]
+    if strange:
+        told = [" ".join(filter(None, [repr(name) + ".", did_you_mean(str(name), known)])) for name in strange]
+        raise ResultsError(f"the rows have no column {' And no '.join(told)} Known: {', '.join(known)}")
+
+
 def filter_of(conditions: Sequence[Condition] | None, known: Sequence[str]) -> Filter | None:
     """Filter of conditions on columns of a folder; None for no condition.
 
@@ -77,11 +93,14 @@ def filter_of(conditions: Sequence[Condition] | None, known: Sequence[str]) -> F
     wrong, parts, names = list[str](), [], list[str]()
     for number, condition in enumerate(_listed(conditions), start=1):
         reason = _wrong(condition, known)
+        if not reason:
+            try:
+                parts.append(_expression(*condition))
+                names.append(condition[0])
+            except (pa.ArrowException, TypeError, ValueError) as error:
+                reason = f"{condition[0]} {condition[1]} {condition[2]!r} compares with no column ({error})"
         if reason:
             wrong.append(f"filters, condition {number}: {reason}")
-        else:
-            parts.append(_expression(*condition))
-            names.append(condition[0])
     if wrong:
         raise ResultsError("\n".join(wrong))
     return Filter(tuple(dict.fromkeys(names)), reduce(operator.and_, parts)) if parts else None
@@ -109,6 +128,8 @@ def _wrong(given: Any, known: Sequence[str]) -> str:
         return f"no operator {how!r}; known: {', '.join(_OPERATORS)}"
     if how in ("in", "not in") and (isinstance(value, str) or not _is_collection(value)):
         return f"{name} {how} needs a list of values, got {value!r}"
+    if isinstance(value, float) and value != value:
+        return f"{name} {how} nan: no column holds it; what is not there is None"
     if value is None and how not in ("=", "==", "!="):
         return f"{name} {how} None: null is compared with = and != alone"
     return ""

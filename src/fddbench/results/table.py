@@ -12,7 +12,7 @@ import pyarrow as pa
 import pyarrow.compute as pc
 
 from fddbench.errors import PartialResultsWarning, ResultsError, warn
-from fddbench.results.filters import Condition, Filter, filter_of
+from fddbench.results.filters import Condition, Filter, filter_of, require_columns
 from fddbench.results.folder import provenance_of
 from fddbench.results.manifest import shards
 from fddbench.results.schema import CASE, EVENTS, rows_schema
@@ -94,7 +94,10 @@ def read_rows(
     ResultsError
         As `load`.
     """
-    chosen = None if filters is None else filter_of(filters, column_names(folder))
+    known = column_names(folder)
+    if columns is not None and known:
+        require_columns(columns, known)
+    chosen = filter_of(filters, known)
     return _sorted(folder, "rows", columns, chosen)
 
 
@@ -124,15 +127,15 @@ def read_in_parts(folder: Path, columns: Sequence[str]) -> Iterator[pd.DataFrame
         yield _sorted(folder, "rows", columns, filter_of([("detector", "=", detector)], ["detector"]))
 
 
-def read_events(folder: Path) -> pd.DataFrame:
-    """Events as of `load_events`, for those who say themselves whether they are all.
+def read_events(folder: Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
+    """Events as of `load_events`, for those who say themselves whether they are all; only some columns.
 
     Raises
     ------
     ResultsError
         As `load`.
     """
-    return _sorted(folder, "events")
+    return _sorted(folder, "events", columns)
 
 
 def named(table: pa.Table) -> pa.Table:

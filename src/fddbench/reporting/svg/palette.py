@@ -91,7 +91,10 @@ def css() -> str:
     rules = "".join(f"svg .{name}{{{_rule(look)}}}" for name, look in LOOKS.items())
     dots = "".join(f".sw.s{i}{{background:var(--s{i})}}" for i in range(SERIES))
     boxes = "".join(f"i.o{i}{{background:var(--o{i})}}" for i in range(6))
-    return f":root{{color-scheme:light dark;{light}}}@media(prefers-color-scheme:dark){{:root{{{dark}}}}}{rules}{dots}{boxes}"
+    words = "svg .m{text-anchor:middle}svg .e{text-anchor:end}svg .w{font-weight:700}"
+    words += "".join(f"svg .z{size}{{font-size:{size}px}}" for size in (9, 10, 11))
+    roots = f":root{{color-scheme:light dark;{light}}}@media(prefers-color-scheme:dark){{:root{{{dark}}}}}"
+    return f"{roots}{rules}{words}{dots}{boxes}"
 
 
 def _rule(look: Look) -> str:

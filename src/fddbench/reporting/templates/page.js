@@ -61,7 +61,7 @@ function parts(name, labels, k, n, lo, hi, cls, what, foot) {
       if (lo[i] !== null) g += `<path class="e${cls}" d="M${x} ${Y(lo[i] / 100)}V${Y(hi[i] / 100)}"/>`;
       g += `<circle class="d${cls}" cx="${x}" cy="${Y(k[i] / n[i])}" r="3.5"><title>${k[i]} of ${n[i]}</title></circle>`;
     }
-    g += `<text x="${x}" y="119" font-size="10.5" text-anchor="middle">${esc(v)}</text><text class="ts" x="${x}" y="133" text-anchor="middle">${k[i]}/${n[i]}</text>`;
+    g += `<text x="${x}" y="119" class="m z10">${esc(v)}</text><text class="ts m z10" x="${x}" y="133">${k[i]}/${n[i]}</text>`;
   });
   return `<figure><svg viewBox="0 0 ${W} 155" role="img" aria-label="${esc(what + ' by ' + name)}">${g}<text x="${46 + (W - 56) / 2}" y="150" text-anchor="middle">${esc(name)}</text><text class="ts" x="11" y="56" text-anchor="middle" transform="rotate(-90 11 56)">${what}</text></svg><figcaption>${foot}</figcaption></figure>`;
 }
