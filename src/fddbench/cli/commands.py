@@ -102,6 +102,8 @@ def told(
 
     folder = report.folder
     if report.interrupted:
+        from fddbench.cli.progress import said_of_interrupted
+
         return said_of_interrupted(report)
     _summary(folder, kept[0], wide=wide, failed=report.failed_rows > 0)
     passed = all_pass(folder, junit=junit, job=require)
@@ -111,17 +113,6 @@ def told(
     print("".join(f"log {name}: {said}\n" for name, said in logs.items()), end="")
     print(f"next: fddbench report {folder}")
     return 1 if report.failed_rows or (require and not passed) else 0
-
-
-def said_of_interrupted(report: "RunReport") -> int:
-    """Say what an interrupted run has saved; exit code of the command."""
-    done = report.continued + report.flights
-    print(
-        f"fddbench: interrupted; {done} of {report.total} flights are saved in {report.folder}.\n"
-        "Run the same command again to continue.",
-        file=sys.stderr,
-    )
-    return _INTERRUPTED
 
 
 def _summary(folder: Path, tables: "tuple[pd.DataFrame, pd.DataFrame]", *, wide: bool, failed: bool) -> None:

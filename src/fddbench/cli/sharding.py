@@ -36,8 +36,7 @@ def shard(args: argparse.Namespace) -> int:
     SIGTERM and Ctrl-C save what is finished; the same command goes on.
     """
     from fddbench.api.sharding import fly_shard
-    from fddbench.cli.commands import said_of_interrupted
-    from fddbench.cli.progress import shown
+    from fddbench.cli.progress import said_of_interrupted, shown
 
     with shown(f"shard {args.number}", quiet=args.quiet) as progress:
         report = fly_shard(
