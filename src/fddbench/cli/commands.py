@@ -22,7 +22,6 @@ __all__ = [
     "list_",
     "report",
     "run",
-    "said_of_interrupted",
     "schema",
     "scores",
     "told",
