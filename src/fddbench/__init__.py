@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from fddbench.api.curves import operating_curve
     from fddbench.api.databases import duckdb
     from fddbench.api.datasets import dataset
+    from fddbench.api.deciding import run_until_decided
     from fddbench.api.designs import tune
     from fddbench.api.detection_curves import pod
     from fddbench.api.exporting import export
@@ -60,6 +61,7 @@ __all__ = [
     "report",
     "requirements",
     "run",
+    "run_until_decided",
     "schema",
     "score",
     "signals",
@@ -95,6 +97,7 @@ _ROOMS = {
     "summary": "summaries",
     "report": "pages",
     "requirements": "requiring",
+    "run_until_decided": "deciding",
     "table_of": "replaying",
     "tradeoff": "tradeoffs",
     "operating_curve": "curves",

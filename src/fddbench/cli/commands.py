@@ -2,10 +2,11 @@
 
 import argparse
 import sys
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fddbench.cli.requiring import all_pass, require_stated
+from fddbench.cli.requiring import all_pass, refuse_unstated, until_decided, write_ci
 from fddbench.errors import FddbenchError
 
 if TYPE_CHECKING:
@@ -36,7 +37,8 @@ def run(args: argparse.Namespace) -> int:
 
     Goes on where an earlier run of the same campaign stopped. Ctrl-C stops after saving what is finished. Of several campaigns
     one with a mistake does not keep the others from flying; the exit code is the worst of theirs. What a campaign requires is
-    judged; with --require the run ends with 1 unless all of it is shown to be met.
+    judged; with --require the run ends with 1 unless all of it is shown to be met; with --until decided more runs are
+    flown until each verdict is pass or fail.
     """
     if len(args.campaigns) == 1:
         return _run(args.campaigns[0], args)
@@ -67,13 +69,12 @@ def _run(path: Path, args: argparse.Namespace) -> int:
     from fddbench.cli.progress import shown
 
     campaign = campaigns.read(path, args.overrides)
-    if args.require or args.junit:
-        require_stated(campaign, "--require" if args.require else "--junit")
+    refuse_unstated(campaign, args)
     kept: list[tuple[pd.DataFrame, pd.DataFrame]] = []
     with shown(campaign.name, quiet=args.quiet) as progress:
-        report = campaigns.run(
-            campaign,
-            args.out,
+        fly = until_decided(path, args) if args.until else partial(campaigns.run, campaign)
+        report = fly(
+            folder=args.out,
             jobs=args.jobs,
             fresh=args.fresh,
             backend=args.backend,
@@ -104,7 +105,7 @@ def told(
         from fddbench.cli.progress import said_of_interrupted
 
         return said_of_interrupted(report)
-    _summary(folder, kept[0], wide=wide, failed=report.failed_rows > 0)
+    _summary(folder, kept[-1], wide=wide, failed=report.failed_rows > 0)
     passed = all_pass(folder, junit=junit, job=require)
     again = f", {report.continued} found done" if report.continued else ""
     print(f"\n{report.flights} flights flown{again} in {report.wall_s:.1f} s; results in {folder}")
@@ -254,10 +255,12 @@ def init(args: argparse.Namespace) -> int:
 
     A detector, one that is trained, a benchmark, a fault or a campaign. `--benchmark recorded` writes logs and what maps them.
 
-    What is there already is left alone.
+    What is there already is left alone. --ci writes a workflow of GitHub that judges what the campaigns in DIR require.
     """
     from fddbench.api.starting import STARTERS, copy_shipped, start
 
+    if args.ci:
+        return write_ci(args.folder)
     for what in STARTERS:
         name = getattr(args, what)
         if name is not None:

@@ -14,7 +14,7 @@ from fddbench.campaign.reading.document import Document, refuse
 from fddbench.campaign.reading.yaml_nodes import read_yaml
 from fddbench.campaign.rules.messages import mistakes_of
 from fddbench.campaign.rules.wording import shown
-from fddbench.designs.design_file import DesignFile, TunedOn
+from fddbench.designs.design_file import DesignFile, Limits, TunedOn
 from fddbench.errors import DesignError, FddbenchError, Mistake
 from fddbench.interfaces import Bus, Detector
 from fddbench.kinds import Kind
@@ -82,6 +82,8 @@ class Design:
         Of a variant, what differs from the file.
     every : int
         It steps at every so manieth sample.
+    limits : Limits
+        What a step may take where the detector is ordinary Python.
     """
 
     name: str
@@ -100,6 +102,7 @@ class Design:
     written: Mapping[str, Any] = field(default_factory=dict, repr=False)
     swept: SweptGain | None = None
     every: int = 1
+    limits: Limits = field(default_factory=Limits)
 
     @property
     def base(self) -> str:
@@ -179,6 +182,7 @@ def read_design(path: Path, *, where: str = "") -> Design:
         members=members,
         written=document.mapping("gains"),
         every=written.every,
+        limits=written.limits,
     )
 
 

@@ -185,7 +185,7 @@ class Flyer:
     def _fly_compiled(self, batch: Batch, recorded: tuple[str, ...]) -> Outcome:
         assembly, fused = self.assembly, self.fused
         needed = self.needed(recorded)
-        opaque = [DetectorFlight(assembly, name, batch, recorded, alone=False) for name in self.opaque]
+        opaque = [DetectorFlight(assembly, name, batch, recorded, alone=False, feed=self.feed) for name in self.opaque]
         kept: dict[str, list[Floats]] = {name: [] for name in needed if name in recorded}
         for flown in self._tiles(batch, needed, opaque):
             for name, parts in kept.items():

@@ -22,6 +22,9 @@ from fddbench.runner.given_up import GivenUp
 
 __all__ = ["rehearse", "rehearsed"]
 
+_HANGS = 2
+"""First flights that end with `timeout` after which a detector is given up; part of the result."""
+
 _ALONE, _SIDE_BY_SIDE, _LONGEST, _SHORTER = 5, 64, 2000, 25
 """Flights that are flown again alone, flights beside them where that costs nothing, samples of each at most, and how many fewer
 are flown alone."""
@@ -81,7 +84,7 @@ def _always_failing(flyer: Flyer, name: str, first: Batch) -> GivenUp | None:
     lines: set[tuple[str, str]] = set()
     for i, case in enumerate(first.cases.tolist()):
         batch = first.take(np.array([i]))
-        flight = DetectorFlight(flyer.assembly, name, batch)
+        flight = DetectorFlight(flyer.assembly, name, batch, feed=flyer.feed)
         flyer.feed(batch, [flight])
         _, errors = flight.finish()
         raised = flight.verdicts.raised[0]
@@ -91,6 +94,8 @@ def _always_failing(flyer: Flyer, name: str, first: Batch) -> GivenUp | None:
         lines.add(raised[1])
         if len(lines) > 1:
             return None
+        if raised[1][0] == "timeout" and len(reasons) == _HANGS:
+            break  # each takes as long as a step may
     return GivenUp(reasons=tuple(reasons.items()))
 
 
@@ -156,14 +161,14 @@ def _made_again(assembly: Assembly, name: str) -> Adapted:
     own = assembly.detectors[name]
     for design in assembly.plan.campaign.designs:
         if design.name == name:
-            made = Adapted(design.build(own.bus), own.bus, design.every)
+            made = Adapted(design.build(own.bus), own.bus, design.every, design)
             return made if type(made.detector) is type(own.detector) else own
     return own
 
 
 def _heard(flyer: Flyer, assembly: Assembly, name: str, batch: Batch) -> DetectorFlight:
     """A detector on a batch, every verdict kept."""
-    flight = DetectorFlight(assembly, name, batch, hear=True)
+    flight = DetectorFlight(assembly, name, batch, hear=True, feed=flyer.feed)
     flyer.feed(batch, [flight])
     return flight
 
