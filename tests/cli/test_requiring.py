@@ -79,6 +79,15 @@ def test_the_exit_code_is_that_of_all_and_everything_is_written(path, monkeypatc
     assert "| **fail** | right | voting_monitor | 0 % |" in summary
 
 
+def test_check_says_what_is_required(path, capsys):
+    assert main(["check", str(path)]) == 0
+    told = capsys.readouterr().out
+    assert (
+        "Required of them, judged after the run\n  right, at 95 % confidence\n  false_alarms_per_hour at most 30, at"
+        in told
+    )
+
+
 def test_what_is_required_may_change_and_is_no_part_of_the_rows(path, capsys):
     """Another requirement on the same folder flies nothing and judges anew; those that all pass end with 0."""
     rows = sorted((path.parent / "out" / "rows").iterdir())

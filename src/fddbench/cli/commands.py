@@ -78,6 +78,7 @@ def _run(path: Path, args: argparse.Namespace) -> int:
             jobs=args.jobs,
             fresh=args.fresh,
             backend=args.backend,
+            compiled_as=args.compiled_as,
             engine=args.engine,
             address=args.dask_address or args.ray_address,
             only=args.only,

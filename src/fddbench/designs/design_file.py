@@ -57,6 +57,10 @@ class DesignFile(Strict):
         Flights the numbers were chosen on.
     every : int
         Steps at every so manieth sample and holds its decision between; its times are counted on that slower clock.
+    code : str
+        Folder of C beside the design that flies in its place, with the functions of the exported header; "" for none.
+    symbols : str, list of symbols, or None
+        Library of operations that it must keep to, see `fddbench.exported.symbols`.
     limits : Limits
         What a step may take where the detector is ordinary Python.
     recipe : mapping, or None
@@ -70,6 +74,8 @@ class DesignFile(Strict):
     source: str
     tuned_on: tuple[TunedOn, ...] | None
     every: Annotated[int, Field(ge=1, le=MOST_SLOW)] = 1
+    code: str = ""
+    symbols: str | list[str | dict[str, Annotated[int, Field(ge=1)]]] | None = None
     limits: Limits = Limits()
     recipe: dict[str, Any] | None = None
     gains: dict[str, Any]

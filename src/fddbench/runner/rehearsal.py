@@ -19,6 +19,7 @@ from fddbench.runner.eager import DetectorFlight
 from fddbench.runner.firsts import first_flights
 from fddbench.runner.flight import Flyer
 from fddbench.runner.given_up import GivenUp
+from fddbench.runner.in_c import InC
 
 __all__ = ["rehearse", "rehearsed"]
 
@@ -48,6 +49,8 @@ def rehearsed(flyer: Flyer, notice: Callable[[str], None] | None = None) -> Flye
             if name == flyer.assembly.commander:
                 rest = "the aircraft acts on it, so nothing is flown and all rows are `error`"
             notice(f"{name} is {given_up[name].said}; {rest}")
+        elif isinstance(own.detector, InC):
+            notice(f"{name} flies as C in a process of its own, compiled by {own.detector.by}")
         elif own.one_by_one or flyer.compiled:
             how = "one flight at a time" if own.one_by_one else "many flights side by side"
             all_ = ", and with it the aircraft that acts on it" if name == flyer.assembly.commander else ""
@@ -68,6 +71,9 @@ def rehearse(flyer: Flyer) -> dict[str, GivenUp]:
         return {}
     given_up, wrong = {}, []
     for name in flyer.opaque:
+        own = flyer.assembly.detectors[name].detector
+        if isinstance(own, InC) and own.exported:
+            continue
         given = _always_failing(flyer, name, first)
         if given is not None:
             given_up[name] = given
@@ -159,6 +165,8 @@ def _spread(n: int, most: int) -> npt.NDArray[np.int64]:
 def _made_again(assembly: Assembly, name: str) -> Adapted:
     """The same detector, newly made of its design."""
     own = assembly.detectors[name]
+    if isinstance(own.detector, InC):
+        return Adapted(own.detector.again(), own.bus, own.every)
     for design in assembly.plan.campaign.designs:
         if design.name == name:
             made = Adapted(design.build(own.bus), own.bus, design.every, design)
