@@ -189,10 +189,10 @@ def test_a_poisoned_flight_under_dask_is_a_row(tmp_path):
     pytest.importorskip("distributed")
     if find_spec("fddbench.runner.supervised") is None:
         pytest.skip("detectors of ordinary Python fly in the worker itself")
-    poison = failing("import os; os._exit(3)", "measured.mass_kg > 219000")
+    poison = failing("import os; os._exit(3)", "measured.mass_kg > 218000")
     path = write(tmp_path, {"poison": poison}, text=CAMPAIGN.replace("[voting_monitor]", "[NAMES]"))
     fddbench.run(path, tmp_path / "out", engine="dask")
     rows = fddbench.load(tmp_path / "out")
-    heavy = rows["p_mass_kg"] > 219000
+    heavy = rows["p_mass_kg"] > 218000
     assert set(rows.loc[heavy, "status"]) == {"crashed"}
     assert set(rows.loc[~heavy, "status"]) == {"ok"}
