@@ -214,7 +214,7 @@ def cost(args: argparse.Namespace) -> int:
     """Count what a step of a detector costs: the load on a flight computer.
 
     Operations by kind, multiply-add pairs, bytes of state and tables, and nanoseconds per step and flight in compiled
-    code on this machine.
+    code on this machine; then the same of the exported C, where a compiler is here: code, tables, stack and time-stamp ticks.
     """
     from fddbench.runner.load import detector_load, in_words
     from fddbench.runner.single import assembly_with
@@ -223,6 +223,9 @@ def cost(args: argparse.Namespace) -> int:
     load = detector_load(assembly.detectors[args.detector], assembly.loop.bus)
     print(f"{args.detector}, at {assembly.loop.bus.sample_s} s: {in_words(load)}")
     if load.cost is not None:
+        from fddbench.runner.in_c import in_c_words
+
+        print(in_c_words(args.detector, assembly.detectors[args.detector], assembly.loop.bus))
         for name, number in load.cost.operations.items():
             print(f"  {name:<12}{number:>6}")
     return 0

@@ -19,11 +19,12 @@ from fddbench.exported.code import sources
 from fddbench.exported.compiling import Compiler, built, compiler
 from fddbench.exported.flown_c import FlownC
 from fddbench.exported.interface import Interface, interface_of
+from fddbench.exported.load_c import load_in_c
 from fddbench.exported.symbols import library, require_symbols
 from fddbench.interfaces import Bus, Verdict
 from fddbench.runner.assembly import Assembly
 
-__all__ = ["InC", "as_c", "code_of_design", "require_allowed"]
+__all__ = ["InC", "as_c", "code_of_design", "in_c_words", "require_allowed"]
 
 
 @record
@@ -127,6 +128,15 @@ def as_c(assembly: Assembly) -> Assembly:
 def _exported(name: str, own: Adapted, bus: Bus, by: Compiler) -> Adapted:
     interface = interface_of(own, bus, name=name)
     return Adapted(InC(interface, sources(interface, own.detector), own, by, exported=True), bus, own.every)
+
+
+def in_c_words(name: str, own: Adapted, bus: Bus) -> str:
+    """What a detector takes as exported C, in one line; or why nobody knows."""
+    try:
+        interface, by = interface_of(own, bus, name=name), compiler()
+        return str(load_in_c(interface, sources(interface, own.at_every_sample.detector), by))
+    except FddbenchError as error:
+        return f"in C: not known, {error}"
 
 
 def code_of_design(design: Design, own: Adapted, bus: Bus) -> Adapted:
