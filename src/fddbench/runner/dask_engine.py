@@ -1,10 +1,12 @@
 """Chunks on a dask cluster, through joblib's backend for it with one thing put right."""
 
+import pickle
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
 from fddbench.errors import FddbenchError, reason_of
+from fddbench.runner.sending import fly_anywhere
 
 __all__ = ["dask_backend"]
 
@@ -28,11 +30,29 @@ def dask_backend(jobs: int, address: str | None) -> Iterator[Callable[[Iterable[
         try:
             with parallel_config(backend=backend):
                 backend.effective_n_jobs(-1)
+                _require_able(client)
                 yield lambda tasks: Parallel(n_jobs=-1, return_as="generator_unordered", batch_size=1)(tasks)
         except TimeoutError as error:
             raise FddbenchError(
                 f"the dask scheduler at {address} has no worker after {_PATIENCE_S} s: start some, dask worker {address}"
             ) from error
+
+
+def _require_able(client: Any) -> None:
+    """Refuse workers that cannot import what they are to call: dask would start them anew for ever.
+
+    Raises
+    ------
+    FddbenchError
+        There are such workers.
+    """
+    answers = client.run(pickle.loads, pickle.dumps(fly_anywhere), on_error="return")
+    wrong = {who: answer for who, answer in answers.items() if isinstance(answer, (ImportError, AttributeError))}
+    for who, error in wrong.items():
+        raise FddbenchError(
+            f"{len(wrong)} of {len(answers)} workers of dask cannot fly ({who}: {reason_of(error)}); they need fddbench and "
+            "the packages of its plug-ins in the versions that are installed here"
+        )
 
 
 @contextmanager
@@ -65,6 +85,10 @@ def _backend() -> Any:
     from joblib._dask import DaskDistributedBackend
 
     class Answering(DaskDistributedBackend):  # type: ignore[misc]
+        def effective_n_jobs(self, n_jobs: int) -> int:
+            # of a cluster of one joblib would fly everything in this process
+            return max(int(super().effective_n_jobs(n_jobs)), 2)
+
         async def _collect(self) -> None:
             import asyncio
 
