@@ -1,6 +1,8 @@
 """Chunks on a dask cluster, through joblib's backend for it with one thing put right."""
 
 import pickle
+import signal
+import threading
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -58,12 +60,11 @@ def _require_able(client: Any) -> None:
 @contextmanager
 def _client(distributed: Any, jobs: int, address: str | None) -> Iterator[Any]:
     if address is None:
-        with (
-            distributed.LocalCluster(
+        with _deaf_to_interrupts():
+            cluster = distributed.LocalCluster(
                 n_workers=jobs, threads_per_worker=1, memory_limit=0, dashboard_address=None, silence_logs=50
-            ) as cluster,
-            distributed.Client(cluster, set_as_default=False) as client,
-        ):
+            )
+        with cluster, distributed.Client(cluster, set_as_default=False) as client:
             yield client
         return
     try:
@@ -74,6 +75,19 @@ def _client(distributed: Any, jobs: int, address: str | None) -> Iterator[Any]:
         ) from error
     with client:
         yield client
+
+
+@contextmanager
+def _deaf_to_interrupts() -> Iterator[None]:
+    """Leave Ctrl-C in a terminal to this process: workers that begin meanwhile inherit that they ignore it."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def _backend() -> Any:
