@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from fddbench.api.pictures import reconstruction_picture, tradeoff_picture
     from fddbench.api.replaying import table_of
     from fddbench.api.schemas import schema
+    from fddbench.api.sharding import fly_shard, plan_shards, slurm_job
     from fddbench.api.summaries import summary
     from fddbench.api.tables import alarms, columns, detectable, load, load_events
     from fddbench.api.tradeoffs import tradeoff
@@ -47,11 +48,13 @@ __all__ = [
     "export",
     "extend",
     "finding",
+    "fly_shard",
     "load",
     "load_events",
     "merge",
     "operating_curve",
     "plan",
+    "plan_shards",
     "pod",
     "read",
     "reconstruction_picture",
@@ -62,6 +65,7 @@ __all__ = [
     "schema",
     "score",
     "signals",
+    "slurm_job",
     "summary",
     "table_of",
     "tradeoff",
@@ -78,6 +82,7 @@ _ROOMS = {
     **dict.fromkeys(("alarms", "columns", "detectable", "load", "load_events"), "tables"),
     **dict.fromkeys(("score", "signals"), "flights"),
     **dict.fromkeys(("reconstruction_picture", "tradeoff_picture"), "pictures"),
+    **dict.fromkeys(("fly_shard", "plan_shards", "slurm_job"), "sharding"),
     "compact": "compacting",
     "compare": "comparing",
     "bounds": "bounds",

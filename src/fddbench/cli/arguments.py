@@ -11,6 +11,7 @@ from fddbench.cli.checked_numbers import probability as _probability
 from fddbench.cli.checked_numbers import share as _share
 from fddbench.cli.folder_arguments import growing_arguments, looking_arguments, trusting, verify_arguments
 from fddbench.cli.run_arguments import run_arguments
+from fddbench.cli.sharding import sharding_arguments
 
 __all__ = ["parser"]
 
@@ -35,6 +36,7 @@ def parser() -> argparse.ArgumentParser:
     looking_arguments(subs)
     verify_arguments(add(subs, "verify", looking.verify))
     growing_arguments(subs)
+    sharding_arguments(subs, _campaign)
 
     _counting(subs)
     cost = add(subs, "cost", commands.cost)

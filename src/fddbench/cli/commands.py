@@ -14,7 +14,19 @@ if TYPE_CHECKING:
 
     from fddbench.runner.run import RunReport
 
-__all__ = ["bound", "check", "cost", "finding", "init", "list_", "report", "run", "schema", "scores", "told"]
+__all__ = [
+    "bound",
+    "check",
+    "cost",
+    "finding",
+    "init",
+    "list_",
+    "report",
+    "run",
+    "schema",
+    "scores",
+    "told",
+]
 
 
 _INTERRUPTED = 130
@@ -91,13 +103,9 @@ def told(
 
     folder = report.folder
     if report.interrupted:
-        done = report.continued + report.flights
-        print(
-            f"fddbench: interrupted; {done} of {report.total} flights are saved in {folder}.\n"
-            "Run the same command again to continue.",
-            file=sys.stderr,
-        )
-        return _INTERRUPTED
+        from fddbench.cli.progress import said_of_interrupted
+
+        return said_of_interrupted(report)
     _summary(folder, kept[-1], wide=wide, failed=report.failed_rows > 0)
     passed = all_pass(folder, junit=junit, job=require)
     again = f", {report.continued} found done" if report.continued else ""

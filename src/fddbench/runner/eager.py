@@ -175,7 +175,7 @@ class DetectorFlight:
                 found[full][: len(rows)] = np.reshape(rows, (len(rows), n_rows, -1))
         for company, again in self.again:
             for full, rows_again in again.tape().items():
-                found[full][: len(rows_again), :, company] = np.moveaxis(rows_again, 2, 0)
+                found[full][: len(rows_again), :, company] = rows_again
         return found
 
 
