@@ -55,15 +55,18 @@ def test_every_design_compiles_and_passes_its_vectors(tmp_path):
             assert "120 samples" in said, design
 
 
-def test_every_design_keeps_the_rules_that_cppcheck_judges(tmp_path):
+def test_every_kind_keeps_the_rules_that_cppcheck_judges(tmp_path):
     require("cppcheck")
-    for at in traceable().values():
+    one_a_kind = {type(assembled(at[0]).detectors[at[1]].detector).__name__: at for at in traceable().values()}
+    for at in one_a_kind.values():
         interface, header, source = exported(*at)
         (tmp_path / f"{interface.name}.h").write_text(header)
         (tmp_path / f"{interface.name}.c").write_text(source)
-    command = ["cppcheck", "--addon=misra", "--std=c99", "--quiet", "."]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert done.stderr == ""
+    said = {}
+    for path in sorted(tmp_path.glob("*.c")):  # each by itself: a flight program has one detector
+        command = ["cppcheck", "--addon=misra", "--std=c99", "--quiet", path.name]
+        said[path.name] = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False).stderr
+    assert {name: text for name, text in said.items() if text} == {}
 
 
 @pytest.mark.parametrize("at", OTHERS, ids=lambda at: at[1])
