@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from fddbench.api.curves import operating_curve
     from fddbench.api.databases import duckdb
     from fddbench.api.datasets import dataset
+    from fddbench.api.deciding import run_until_decided
     from fddbench.api.designs import tune
     from fddbench.api.detection_curves import pod
     from fddbench.api.exporting import export
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from fddbench.api.pictures import reconstruction_picture, tradeoff_picture
     from fddbench.api.replaying import table_of
     from fddbench.api.schemas import schema
+    from fddbench.api.sharding import fly_shard, plan_shards, slurm_job
     from fddbench.api.summaries import summary
     from fddbench.api.tables import alarms, columns, detectable, load, load_events
     from fddbench.api.tradeoffs import tradeoff
@@ -46,20 +48,24 @@ __all__ = [
     "export",
     "extend",
     "finding",
+    "fly_shard",
     "load",
     "load_events",
     "merge",
     "operating_curve",
     "plan",
+    "plan_shards",
     "pod",
     "read",
     "reconstruction_picture",
     "report",
     "requirements",
     "run",
+    "run_until_decided",
     "schema",
     "score",
     "signals",
+    "slurm_job",
     "summary",
     "table_of",
     "tradeoff",
@@ -76,6 +82,7 @@ _ROOMS = {
     **dict.fromkeys(("alarms", "columns", "detectable", "load", "load_events"), "tables"),
     **dict.fromkeys(("score", "signals"), "flights"),
     **dict.fromkeys(("reconstruction_picture", "tradeoff_picture"), "pictures"),
+    **dict.fromkeys(("fly_shard", "plan_shards", "slurm_job"), "sharding"),
     "compact": "compacting",
     "compare": "comparing",
     "bounds": "bounds",
@@ -90,6 +97,7 @@ _ROOMS = {
     "summary": "summaries",
     "report": "pages",
     "requirements": "requiring",
+    "run_until_decided": "deciding",
     "table_of": "replaying",
     "tradeoff": "tradeoffs",
     "operating_curve": "curves",

@@ -1,8 +1,10 @@
 """Verdicts on what a campaign requires: in the terminal, by exit code, as JUnit XML, in the summary of a job, as a table."""
 
+from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
+import yaml
 
 import fddbench
 from fddbench.api.requiring import judgements
@@ -77,6 +79,15 @@ def test_the_exit_code_is_that_of_all_and_everything_is_written(path, monkeypatc
     assert "| **fail** | right | voting_monitor | 0 % |" in summary
 
 
+def test_check_says_what_is_required(path, capsys):
+    assert main(["check", str(path)]) == 0
+    told = capsys.readouterr().out
+    assert (
+        "Required of them, judged after the run\n  right, at 95 % confidence\n  false_alarms_per_hour at most 30, at"
+        in told
+    )
+
+
 def test_what_is_required_may_change_and_is_no_part_of_the_rows(path, capsys):
     """Another requirement on the same folder flies nothing and judges anew; those that all pass end with 0."""
     rows = sorted((path.parent / "out" / "rows").iterdir())
@@ -121,3 +132,98 @@ def test_hostile_names_stay_text(path):
     assert ElementTree.fromstring(to_junit(named, "c<&>")).find("testsuite/testcase").get("name") == '<b>|"&]]>'
     assert '| <b>\\|"&]]> |' in to_summary(named, "c")
     assert '<b>|"&]]>' in to_text(named)
+
+
+def test_flown_until_decided_are_the_rows_of_more_runs_and_going_on_adds_none(path, tmp_path, capsys):
+    own = tmp_path / "c.yaml"
+    own.write_text(CAMPAIGN.replace("at_most: 30", "at_most: 60"), encoding="utf-8")
+    command = ["run", str(own), "--out", str(tmp_path / "out"), "--quiet", "--jobs", "1", "--until", "decided"]
+    assert main(command) == 0
+    assert "UNDECIDED" not in capsys.readouterr().out
+    found = judgements(tmp_path / "out")
+    runs = found[0].runs_planned
+    assert 30 < runs <= 600
+    assert main([*command, "--require"]) == 1  # voting_monitor fails
+    assert "0 flights flown" in capsys.readouterr().out
+    straight = ["run", str(own), "--out", str(tmp_path / "straight"), "--quiet", "--jobs", "1"]
+    assert main([*straight, "--set", f"dispersions.monte_carlo.runs={runs}"]) == 0
+    assert judgements(tmp_path / "straight") == found
+    one, other = fddbench.load(tmp_path / "out"), fddbench.load(tmp_path / "straight")
+    assert one.equals(other)
+
+
+def test_it_ends_undecided_after_so_many_runs(path, tmp_path, capsys):
+    command = [
+        "run",
+        str(path),
+        "--out",
+        str(tmp_path / "out"),
+        "--quiet",
+        "--jobs",
+        "1",
+        "--until",
+        "decided",
+        "--at-most",
+    ]
+    assert main([*command, "32", "--require"]) == 1
+    told = capsys.readouterr()
+    assert "flying 32 runs in all" in told.err
+    assert "UNDECIDED" in told.out
+    assert main([*command, "20"]) == 2
+    assert "the campaign itself has 30" in capsys.readouterr().err
+    assert main(["run", str(path), "--at-most", "50"]) == 2
+
+
+@pytest.mark.parametrize(
+    ("left", "most", "runs"),
+    [
+        ([("pass", 0, 100)], 1000, None),
+        ([("undecided", 10, 100)], 1000, 125),
+        ([("undecided", 50, 100), ("pass", 0, 100)], 1000, 155),
+        ([("undecided", 5000, 100)], 1000, 200),
+        ([("undecided", None, 100)], 150, 150),
+        ([("undecided", 50, 100)], 100, None),
+        ([("undecided", 50, 20), ("undecided", 5, 200)], 1000, None),  # a scenario with runs of its own
+    ],
+)
+def test_how_many_are_flown_next(path, left, most, runs):
+    from dataclasses import replace
+
+    from fddbench.api.deciding import next_runs
+
+    base = judgements(path.parent / "out")[0]
+    found = [replace(base, verdict=verdict, runs_needed=need, runs_planned=planned) for verdict, need, planned in left]
+    assert next_runs(found, 100, most) == runs
+
+
+def test_a_comparison_ends_with_1_where_what_is_stated_got_worse(path, capsys):
+    out = str(path.parent / "out")
+    worse = ["compare", out, "--detector", "sliding_mode_published", "--detector", "voting_monitor"]
+    assert main([*worse, "--require", "stated"]) == 1
+    assert "got worse: right of voting_monitor in jam_b" in capsys.readouterr().err
+    assert main([*worse[:2], *worse[4:], *worse[2:4], "--require", "stated"]) == 0
+
+
+def test_init_writes_a_workflow_for_what_is_required(path, tmp_path, capsys):
+    assert main(["init", "--ci", str(tmp_path)]) == 2
+    assert "has requirements: to judge" in capsys.readouterr().err
+    (tmp_path / "campaigns").mkdir()
+    (tmp_path / "campaigns" / "own: one.yaml").write_text(CAMPAIGN, encoding="utf-8")
+    (tmp_path / "broken.yaml").write_text("requirements: [", encoding="utf-8")
+    (tmp_path / "none.yaml").write_text(CAMPAIGN.split("requirements:")[0], encoding="utf-8")
+    assert main(["init", "--ci", str(tmp_path)]) == 0
+    workflow = yaml.safe_load((tmp_path / ".github/workflows/fddbench.yml").read_text(encoding="utf-8"))
+    runs = [step.get("run") for step in workflow["jobs"]["requirements"]["steps"]]
+    assert f"pip install fddbench=={fddbench.__version__}" in runs
+    assert "fddbench run 'campaigns/own: one.yaml' --require\n" in runs
+    assert main(["init", "--ci", str(tmp_path)]) == 2
+    assert "is there already and is left alone" in capsys.readouterr().err
+
+
+def test_our_own_workflow_runs_what_must_pass():
+    workflow = Path(__file__).parents[2] / ".github/workflows/ci.yml"
+    jobs = yaml.safe_load(workflow.read_text(encoding="utf-8"))["jobs"]
+    assert {"run": ".ci/run"} in jobs["all"]["steps"]
+    for name in ("yaw_rate_table8", "jet_engine_monte_carlo"):
+        assert fddbench.read(name).requirements
+    assert any("yaw_rate_table8 --require" in step.get("run", "") for step in jobs["requirements"]["steps"])

@@ -98,7 +98,8 @@ def test_a_data_base_numbers_points_as_the_campaign_of_today(tmp_path):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         loaded = fddbench.load(out, ["case", "point", "p_mass_kg"])
-        found = fddbench.duckdb(out).sql('SELECT "case", point, p_mass_kg FROM rows ORDER BY point').df()
+        base = fddbench.duckdb(out)
+        found = base.sql('SELECT "case", point, p_mass_kg FROM rows ORDER BY point').df()
     assert loaded["p_mass_kg"].tolist() == [190000, 210000, 220000] * 2
     assert np.array_equal(found.to_numpy(), loaded.to_numpy())
 
@@ -108,7 +109,8 @@ def test_a_data_base_of_a_damaged_or_partial_folder_says_so(out, monkeypatch):
     list_of_shards = out / "manifest.jsonl"
     list_of_shards.write_bytes(b"".join(list_of_shards.read_bytes().splitlines(keepends=True)[:2]))
     with pytest.warns(PartialResultsWarning, match="partial, it holds 4 of 12 flights"):
-        assert len(fddbench.duckdb(out).sql("FROM rows")) == 4
+        base = fddbench.duckdb(out)
+    assert len(base.sql("FROM rows")) == 4
     for path in (out / "rows").glob("*.parquet"):
         path.write_bytes(path.read_bytes() + b"x")
     with pytest.raises(ResultsError, match="is not the file that was written"):

@@ -3,6 +3,7 @@
 import os
 import random
 import shutil
+from dataclasses import replace
 
 import pandas as pd
 import pytest
@@ -116,6 +117,20 @@ def test_shards_of_another_stage_or_other_detectors_are_not_mixed(out):
     assert {(shard.fingerprint, shard.detectors) for shard in listed} == kinds
     same(tables(out), before)
     assert not fddbench.verify(out).wrong
+
+
+def test_few_shards_with_failed_rows_stay_as_they_are(out):
+    first, *rest = manifest.shards(out)
+    manifest.keep(out, [replace(first, statuses={"error": 1, "ok": 1}), *rest])
+    assert compacting.compact(out).after == 2
+    assert first.rows in [shard.rows for shard in manifest.shards(out)]
+
+
+def test_where_most_fail_all_are_joined(out):
+    *most, last = manifest.shards(out)
+    manifest.keep(out, [*[replace(shard, statuses={"error": 2}) for shard in most], last])
+    (joined,) = manifest.shards(out) if compacting.compact(out).after == 1 else [None]
+    assert joined.statuses == {"error": 10, "ok": 2}
 
 
 def test_a_large_run_joins_what_it_flew_and_a_small_one_does_not(campaign, flown, tmp_path, monkeypatch):

@@ -1,10 +1,15 @@
 """Whoever flies, the table is the same; who cannot fly says why, and nobody waits for ever."""
 
+import os
+import signal
+import time
 from dataclasses import replace
+from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
-from tests.runner.plugins import PLAIN, write
+from tests.runner.plugins import PLAIN, failing, write
 
 import fddbench
 from fddbench.cli import main
@@ -122,3 +127,72 @@ def test_nobody_at_an_address(campaign, tmp_path):
     with pytest.raises(FddbenchError, match="no dask scheduler answers at 'tcp://127.0.0.1:9'"):
         fddbench.run(campaign, tmp_path / "out", engine="dask", address="tcp://127.0.0.1:9")
     monkey.undo()
+
+
+@pytest.mark.slow
+def test_loky_and_dask_are_one_process(campaign, clean, tmp_path):
+    pytest.importorskip("distributed")
+    for engine in ("loky", "dask"):
+        fddbench.run(campaign, tmp_path / engine, engine=engine)
+        assert fddbench.load(tmp_path / engine).equals(clean)
+    assert not (tmp_path / "dask" / ".token").exists()
+
+
+@pytest.mark.slow
+def test_killed_workers_of_dask_lose_nothing(tmp_path):
+    """Without the nanny's new workers, or the pool's new attempt, flights are missing."""
+    pytest.importorskip("distributed")
+    path = tmp_path / "engines.yaml"
+    path.write_text(CAMPAIGN.replace("runs: 40", "runs: 6000").replace("duration_s: 2.0", "duration_s: 6.0"))
+    psutil, killed = pytest.importorskip("psutil"), []
+
+    def kill(progress):
+        if progress.flown and not killed:
+            below = psutil.Process().children(recursive=True)
+            workers = [each for each in below if "spawn_main" in " ".join(each.cmdline())]
+            killed.append(workers[0].pid)
+            os.kill(workers[0].pid, signal.SIGKILL)
+
+    fddbench.run(path, tmp_path / "dask", engine="dask", progress=kill)
+    fddbench.run(path, tmp_path / "clean")
+    assert killed
+    assert fddbench.load(tmp_path / "dask").equals(fddbench.load(tmp_path / "clean"))
+
+
+@pytest.mark.slow
+def test_workers_of_dask_that_lack_a_package_are_named(campaign, tmp_path, monkeypatch):
+    """Without the question beforehand dask starts such workers anew for ever."""
+    pytest.importorskip("distributed")
+    (tmp_path / "only_here.py").write_text("def fly(own, cases):\n    return None\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setattr("fddbench.runner.dask_engine.fly_anywhere", import_module("only_here").fly)
+    (tmp_path / "only_here.py").unlink()
+    begun = time.monotonic()
+    with pytest.raises(FddbenchError, match="1 of 1 workers of dask cannot fly .*No module named 'only_here'"):
+        fddbench.run(campaign, tmp_path / "out", engine="dask", jobs=1)
+    assert time.monotonic() - begun < 10
+
+
+@pytest.mark.slow
+def test_a_task_that_kills_its_worker_again_and_again_ends_the_run_under_dask(campaign, tmp_path, monkeypatch):
+    """With joblib's own backend this waits for ever."""
+    pytest.importorskip("distributed")
+    monkeypatch.setattr("fddbench.runner.pool.fly_anywhere", lambda own, cases: os._exit(1))
+    monkeypatch.setattr("fddbench.runner.pool._ATTEMPTS", 1)
+    with pytest.raises(FddbenchError, match="workers died 1 times"):
+        fddbench.run(campaign, tmp_path / "out", engine="dask", jobs=1)
+
+
+@pytest.mark.slow
+def test_a_poisoned_flight_under_dask_is_a_row(tmp_path):
+    """79 good rows of 80; without the supervised processes of detectors the worker dies with the flight."""
+    pytest.importorskip("distributed")
+    if find_spec("fddbench.runner.supervised") is None:
+        pytest.skip("detectors of ordinary Python fly in the worker itself")
+    poison = failing("import os; os._exit(3)", "measured.mass_kg > 218000")
+    path = write(tmp_path, {"poison": poison}, text=CAMPAIGN.replace("[voting_monitor]", "[NAMES]"))
+    fddbench.run(path, tmp_path / "out", engine="dask")
+    rows = fddbench.load(tmp_path / "out")
+    heavy = rows["p_mass_kg"] > 218000
+    assert set(rows.loc[heavy, "status"]) == {"crashed"}
+    assert set(rows.loc[~heavy, "status"]) == {"ok"}

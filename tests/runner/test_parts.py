@@ -34,7 +34,7 @@ class Mine(Base):
 
     def step(self, state, measured):
         state[0] += 1
-        if state[0] == 5 and os.environ.get("FRAGILE_KG") and measured.mass_kg > float(os.environ["FRAGILE_KG"]):
+        if state[0] == 5 and measured.mass_kg > 200000 and os.path.exists("FULL"):
             raise MemoryError("the machine is full")
         return state, Verdict([0, 0, 0], 0.0)
 """
@@ -83,9 +83,9 @@ def test_a_wrong_part_writes_nothing(campaign, tmp_path, capsys):
     assert not (tmp_path / "out").exists()
 
 
-def test_what_failed_is_flown_again_when_asked(tmp_path, monkeypatch):
+def test_what_failed_is_flown_again_when_asked(tmp_path):
     (tmp_path / "detectors").mkdir()
-    (tmp_path / "detectors" / "fragile.py").write_text(HEAD + FRAGILE)
+    (tmp_path / "detectors" / "fragile.py").write_text(HEAD + FRAGILE.replace("FULL", str(tmp_path / "full")))
     (tmp_path / "detectors" / "fragile.yaml").write_text(
         "kind: fragile.py:Mine\nabout: a test\nsource: me\ntuned_on: null\ngains: {}\n"
     )
@@ -93,10 +93,10 @@ def test_what_failed_is_flown_again_when_asked(tmp_path, monkeypatch):
     path.write_text(CAMPAIGN.replace("sliding_mode_published", "fragile"))
     clean = fddbench.run(path, tmp_path / "clean", jobs=1)
     assert not clean.failed_rows
-    monkeypatch.setenv("FRAGILE_KG", str(fddbench.load(tmp_path / "clean")["p_mass_kg"].median()))
+    (tmp_path / "full").write_text("the machine has no room")
     first = fddbench.run(path, tmp_path / "out", jobs=1)
     assert 0 < first.failed_rows < 8
-    monkeypatch.delenv("FRAGILE_KG")
+    (tmp_path / "full").unlink()
     again = fddbench.run(path, tmp_path / "out", jobs=1, retry_failed=True)
     assert again.failed_rows == 0
     assert again.flights > 0

@@ -18,7 +18,8 @@ def duckdb(folder: str | Path) -> "DuckDBPyConnection":
 
     The columns are those of `fddbench.load` and `fddbench.load_events`; DuckDB reads what a question needs and no more, so a
     campaign of any size fits. The order of rows is the question's own (``ORDER BY``). The views are those of the moment: ask
-    for another data base after the folder has grown.
+    for another data base after the folder has grown. Keep it in a variable while its answers are read: DuckDB 1 closes a data
+    base that nobody holds.
 
     Parameters
     ----------

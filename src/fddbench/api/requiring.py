@@ -21,7 +21,7 @@ from fddbench.results.shards import write_bytes
 from fddbench.results.table import read_rows
 from fddbench.runner.fingerprint import frozen
 
-__all__ = ["judgements", "requirements", "write_junit"]
+__all__ = ["judgements", "requirements", "stated", "write_junit"]
 
 
 def requirements(folder: str | Path) -> pd.DataFrame:
@@ -74,6 +74,41 @@ def judgements(folder: str | Path, campaign: Campaign | None = None) -> list[Jud
     rows = read_rows(Path(folder), names) if there else pd.DataFrame(columns=names)
     by_detector = {str(name): part for name, part in rows.groupby("detector", sort=False)}
     return [one for entry in own.requirements for one in _of_entry(entry, own, case_table, by_detector)]
+
+
+def stated(folder: str | Path) -> list[tuple[str, tuple[str, ...], tuple[str, ...]]]:
+    """What the campaign of a folder requires, as measures of a comparison: (measure, scenarios, detectors).
+
+    Raises
+    ------
+    FddbenchError
+        It requires nothing.
+    """
+    own = frozen(Path(folder))
+    if not own.requirements:
+        raise FddbenchError(
+            f"the campaign of {folder} requires nothing; name a measure, or write requirements: into it"
+        )
+    faulty = {each.name: bool(each.faults) for each in own.scenarios}
+    designs = [design.name for design in own.designs]
+    return [
+        (
+            _COMPARED[entry.of],
+            chosen(entry.scenarios, [name for name in faulty if faulty[name] or entry.of not in OF_FAULTS]),
+            chosen(entry.detectors, designs),
+        )
+        for entry in own.requirements
+    ]
+
+
+_COMPARED = {
+    "right_share": "right",
+    "wrong_site_share": "wrong_site",
+    "normalized_detection_time": "detection_time",
+    "false_alarm_share": "false_alarm",
+    "false_alarms_per_hour": "false_alarm",
+}
+"""Measure of a comparison that is nearest to what is required."""
 
 
 def write_junit(found: Sequence[Judgement], campaign: str, path: Path) -> Path:

@@ -111,6 +111,7 @@ def _meaning(
         scenarios=tuple(scenarios),
         designs=designs,
         reconfigure=written.reconfigure or "",
+        symbols=written.symbols,
         reconfigure_where=document.where(("reconfigure",)),
         text=canonical_text(document.data),
         table=table,
@@ -128,7 +129,7 @@ def _content(
 ) -> dict[str, Any]:
     """Everything that decides rows, as plain data."""
     content: dict[str, Any] = written.model_dump(
-        mode="json", exclude={"about", "scenarios", "report", "requirements"}
+        mode="json", exclude={"about", "scenarios", "report", "requirements", "symbols"}
     ) | dict(choices)
     content["scenarios"] = [
         entry.model_dump(mode="json")

@@ -60,6 +60,8 @@ class Campaign:
         Explicit cases by name of the parameter, a row a run; empty without.
     beside : mapping of str to bytes
         Files beside the campaign that its kinds come from.
+    symbols : str, list or None
+        Library of operations that every detector must keep to.
     sha256 : str
         Of the meaning without `about` and what is required, of the designs and of the files: equal hashes give equal rows.
     """
@@ -87,6 +89,7 @@ class Campaign:
     table: Mapping[str, Floats] = field(repr=False)
     beside: Mapping[str, bytes] = field(repr=False)
     sha256: str
+    symbols: Any = None
 
     @property
     def shown(self) -> tuple[str, ...]:

@@ -11,6 +11,7 @@ from fddbench.cli.checked_numbers import probability as _probability
 from fddbench.cli.checked_numbers import share as _share
 from fddbench.cli.folder_arguments import growing_arguments, looking_arguments, trusting, verify_arguments
 from fddbench.cli.run_arguments import run_arguments
+from fddbench.cli.sharding import sharding_arguments
 
 __all__ = ["parser"]
 
@@ -35,6 +36,7 @@ def parser() -> argparse.ArgumentParser:
     looking_arguments(subs)
     verify_arguments(add(subs, "verify", looking.verify))
     growing_arguments(subs)
+    sharding_arguments(subs, _campaign)
 
     _counting(subs)
     cost = add(subs, "cost", commands.cost)
@@ -117,7 +119,7 @@ def _counting(subs) -> None:  # type: ignore[no-untyped-def]
     )  # fmt: skip
     compare.add_argument(
         "--require", action="append", default=[], metavar="MEASURE",
-        help="end with 1 where this got worse: right, wrong_site, false_alarm or detection_time (may be repeated)",
+        help="end with 1 where this got worse: right, wrong_site, false_alarm, detection_time, or stated (may be repeated)",
     )  # fmt: skip
 
 
@@ -131,13 +133,14 @@ def _asking(subs) -> None:  # type: ignore[no-untyped-def]
     init = add(subs, "init", commands.init)
     init.add_argument("folder", type=Path, nargs="?", default=Path(), metavar="DIR", help="where to (default: here)")
     names = (
-        "[--detector NAME | --trained NAME |\n                     --benchmark NAME | --fault NAME | --campaign NAME]"
+        "[--detector NAME | --trained NAME |\n" + " " * 21 + "--benchmark NAME | --fault NAME | --campaign NAME | --ci]"
     )
     init.usage = f"fddbench init [-h] [DIR] {names}"  # argparse does not break a group
     one = init.add_mutually_exclusive_group()
     for what in ("detector", "trained", "benchmark", "fault", "campaign"):
         said = "detector that is trained on labelled flights" if what == "trained" else f"{what} of your own"
         one.add_argument(f"--{what}", metavar="NAME", help=f"a small {said}, and a campaign that flies it")
+    one.add_argument("--ci", action="store_true", help="a workflow of GitHub for the campaigns in DIR")
     schema = add(subs, "schema", commands.schema)
     schema.add_argument("subject", nargs="?", default="", metavar="BENCHMARK", help="name of a benchmark, or designs")
     schema.add_argument("--output", type=Path, metavar="FILE", help="file to write (default: print it)")

@@ -3,16 +3,20 @@
 import argparse
 import os
 import sys
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from fddbench.cli.checked_numbers import runs
 from fddbench.errors import FddbenchError
 
 if TYPE_CHECKING:
     from fddbench.campaign.meaning import Campaign
     from fddbench.metrics.requirements import Judgement
+    from fddbench.runner.run import RunReport
 
-__all__ = ["all_pass", "arguments", "leave", "require_stated"]
+__all__ = ["all_pass", "arguments", "leave", "refuse_unstated", "until_decided", "write_ci"]
 
 
 def arguments(run: argparse.ArgumentParser) -> None:
@@ -22,6 +26,17 @@ def arguments(run: argparse.ArgumentParser) -> None:
         help="end with 1 unless every requirement of the campaign passes; summary for a job of GitHub",
     )  # fmt: skip
     run.add_argument(
+        "--until",
+        choices=("decided",),
+        help="fly more runs, in the same folder, until every requirement passes or fails",
+    )
+    run.add_argument(
+        "--at-most",
+        type=runs,
+        metavar="RUNS",
+        help="end --until undecided after so many runs (default: 20 times the campaign's)",
+    )
+    run.add_argument(
         "--junit",
         type=Path,
         metavar="FILE",
@@ -29,19 +44,37 @@ def arguments(run: argparse.ArgumentParser) -> None:
     )
 
 
-def require_stated(campaign: "Campaign", what: str) -> None:
+def refuse_unstated(campaign: "Campaign", args: argparse.Namespace) -> None:
     """Refuse to judge a campaign that requires nothing, before it is flown.
 
     Raises
     ------
     FddbenchError
-        It has no requirements.
+        It has no requirements, or --at-most stands alone.
     """
-    if not campaign.requirements:
+    if args.at_most is not None and not args.until:
+        raise FddbenchError("--at-most ends --until decided; without it the campaign says how many runs are flown")
+    asked = [option for option in ("require", "junit", "until") if getattr(args, option)]
+    if asked and not campaign.requirements:
         raise FddbenchError(
-            f"{what} judges what a campaign requires, and {campaign.path} requires nothing; write requirements: into it, such "
-            "as [{of: right_share, at_least: 0.95}]"
+            f"--{asked[0]} judges what a campaign requires, and {campaign.path} requires nothing; write requirements: into it, "
+            "such as [{of: right_share, at_least: 0.95}]"
         )
+
+
+def until_decided(path: Path, args: argparse.Namespace) -> "Callable[..., RunReport]":
+    """What flies a campaign until it is decided, for the arguments of a run."""
+    from fddbench.api.deciding import run_until_decided
+
+    return partial(run_until_decided, path, overrides=args.overrides, at_most=args.at_most)
+
+
+def write_ci(folder: Path) -> int:
+    """Write a workflow that judges the campaigns in a folder."""
+    from fddbench.api.continuous import write_workflow
+
+    print(write_workflow(folder))
+    return 0
 
 
 def all_pass(folder: Path, *, junit: Path | None = None, job: bool = False) -> bool:

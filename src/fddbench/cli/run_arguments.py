@@ -25,6 +25,10 @@ def run_arguments(command: argparse.ArgumentParser) -> None:
         help="compiled where llvmlite is installed (auto), always, or never; no part of any result",
     )  # fmt: skip
     command.add_argument(
+        "--compiled-as", choices=("c",), default=None,
+        help="fly detectors as exported C, compiled by the system's compiler: the same rows",
+    )  # fmt: skip
+    command.add_argument(
         "--only", action="append", default=[], metavar="KEY=VALUE,...",
         help="fly a part: scenario=jam_a,detector=D,run=0-99 (keys: scenario, detector, point, level, run; may be repeated)",
     )  # fmt: skip

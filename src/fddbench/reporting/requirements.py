@@ -1,8 +1,8 @@
 """Judged requirements as plain text, as Markdown for the summary of a job, and as JUnit XML for a server that builds."""
 
 from collections import Counter
-from collections.abc import Sequence
-from math import isinf
+from collections.abc import Callable, Sequence
+from math import ceil, floor, isinf
 from textwrap import fill
 from xml.etree import ElementTree
 
@@ -21,8 +21,8 @@ def value_text(one: Judgement) -> str:
 
 
 def interval_text(one: Judgement) -> str:
-    """Its interval, ``[98.3, 99.8]``; no upper end is a dash."""
-    return f"[{_number(one, one.low)}, {DASH if isinf(one.high) else _number(one, one.high)}]"
+    """Its interval, ``[98.3, 99.8]``, rounded outwards; no upper end is a dash."""
+    return f"[{_end(one, one.low, floor)}, {DASH if isinf(one.high) else _end(one, one.high, ceil)}]"
 
 
 def needed_text(one: Judgement) -> str:
@@ -53,15 +53,13 @@ def evidence_text(one: Judgement) -> str:
 
 def to_text(judgements: Sequence[Judgement]) -> str:
     """Each requirement with a line, or two, for every detector that it is on; 80 columns."""
-    lines, before = [f"Requirements, each verdict at any look{_each(judgements)}"], ""
-    for one in judgements:
-        if _called(one) != before:
-            lines.append(fill(_called(one), _WIDTH, subsequent_indent="  "))
-        before = _called(one)
-        first = f"  {_WORDS[one.verdict]:<10} "
-        lines.append(
-            fill(f"{one.detector}: {evidence_text(one)}", _WIDTH, initial_indent=first, subsequent_indent=" " * 15)
-        )
+    lines = [f"Requirements, each verdict at any look{_each(judgements)}"]
+    for called in dict.fromkeys(map(_called, judgements)):
+        lines.append(fill(called, _WIDTH, subsequent_indent="  "))
+        for one in judgements:
+            if _called(one) == called:
+                first, text = f"  {_WORDS[one.verdict]:<10} ", f"{one.detector}: {evidence_text(one)}"
+                lines.append(fill(text, _WIDTH, initial_indent=first, subsequent_indent=" " * 15))
     return "\n".join(lines)
 
 
@@ -120,11 +118,25 @@ def _unit(one: Judgement) -> str:
     return "per hour" if one.of == "false_alarms_per_hour" else "%"
 
 
-def _number(one: Judgement, value: float) -> str:
-    """A rate with three digits, a share in percent with one digit more than its limit; never rounded to 0 or 100."""
+def _end(one: Judgement, value: float, outwards: Callable[[float], int]) -> str:
+    """An end of the interval, never inside of it."""
     if one.of == "false_alarms_per_hour":
         return rate(value)
-    digits = max(1, len(f"{100 * one.limit:.10g}".partition(".")[2]) + 1)
+    digits = _digits(one)
+    text = f"{outwards(round(100 * value * 10**digits, 6)) / 10**digits:.{digits}f}"
+    return text.removesuffix("." + "0" * digits) if float(text) in (0.0, 100.0) else text
+
+
+def _digits(one: Judgement) -> int:
+    """Digits of a share in percent: one more than its limit has."""
+    return max(1, len(f"{100 * one.limit:.10g}".partition(".")[2]) + 1)
+
+
+def _number(one: Judgement, value: float) -> str:
+    """A rate with three digits, a share in percent; never rounded to 0 or 100."""
+    if one.of == "false_alarms_per_hour":
+        return rate(value)
+    digits = _digits(one)
     while 0.0 < value < 1.0 and digits < 9 and float(f"{100 * value:.{digits}f}") in (0.0, 100.0):
         digits += 1
     return f"{100 * value:.{digits}f}" if 0.0 < value < 1.0 else f"{100 * value:.0f}"

@@ -17,7 +17,7 @@ from fddbench.errors import ResultsError
 from fddbench.results import manifest
 from fddbench.results.folder import provenance_of
 from fddbench.results.manifest import Shard
-from fddbench.results.schema import EVENTS, rows_schema
+from fddbench.results.schema import EVENTS, FAILED, rows_schema
 from fddbench.results.shards import file_sha256, open_table, read_columns, write_tables
 
 __all__ = ["ENOUGH", "Compacted", "compact", "remove_unlisted"]
@@ -40,6 +40,8 @@ class Compacted:
 def compact(folder: Path, *, most: int = _MOST, only: str = "", least: int = 0) -> Compacted:
     """Join the small shards of a folder that were flown by one program for the same detectors; large ones keep their bytes.
 
+    Few shards with failed rows stay as they are, so that ``--retry-failed`` has few flights to fly again.
+
     Parameters
     ----------
     folder : Path
@@ -61,10 +63,11 @@ def compact(folder: Path, *, most: int = _MOST, only: str = "", least: int = 0) 
     after: list[Shard] = []
     for alike in _alike(before):
         ours = alike[0].fingerprint in listed and only in ("", alike[0].fingerprint)
-        small = [shard for shard in alike if ours and _rows(shard) < min(ENOUGH, most)]
+        small = _sound([shard for shard in alike if ours and _rows(shard) < min(ENOUGH, most)])
         small = small if sum(map(_rows, small)) >= least else []
         _require_sound(folder, small)
-        kept = [shard for shard in alike if shard not in small]
+        joined = {shard.rows for shard in small}
+        kept = [shard for shard in alike if shard.rows not in joined]
         after += kept + [_joined(folder, group) for group in _groups(small, most)]
     if len(after) < len(before):
         manifest.keep(folder, after)
@@ -86,6 +89,12 @@ def _require_sound(folder: Path, found: Sequence[Shard]) -> None:
 
 def _rows(shard: Shard) -> int:
     return sum(shard.statuses.values())
+
+
+def _sound(found: list[Shard]) -> list[Shard]:
+    """Shards without failed rows, where these are most: who flies the others again is to fly few flights."""
+    sound = [shard for shard in found if not FAILED & {status for status, n in shard.statuses.items() if n}]
+    return sound if 2 * len(sound) > len(found) else found
 
 
 def _files(shard: Shard) -> list[str]:

@@ -1,10 +1,14 @@
 """Chunks on a dask cluster, through joblib's backend for it with one thing put right."""
 
+import pickle
+import signal
+import threading
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
 from fddbench.errors import FddbenchError, reason_of
+from fddbench.runner.sending import fly_anywhere
 
 __all__ = ["dask_backend"]
 
@@ -28,6 +32,7 @@ def dask_backend(jobs: int, address: str | None) -> Iterator[Callable[[Iterable[
         try:
             with parallel_config(backend=backend):
                 backend.effective_n_jobs(-1)
+                _require_able(client)
                 yield lambda tasks: Parallel(n_jobs=-1, return_as="generator_unordered", batch_size=1)(tasks)
         except TimeoutError as error:
             raise FddbenchError(
@@ -35,15 +40,31 @@ def dask_backend(jobs: int, address: str | None) -> Iterator[Callable[[Iterable[
             ) from error
 
 
+def _require_able(client: Any) -> None:
+    """Refuse workers that cannot import what they are to call: dask would start them anew for ever.
+
+    Raises
+    ------
+    FddbenchError
+        There are such workers.
+    """
+    answers = client.run(pickle.loads, pickle.dumps(fly_anywhere), on_error="return")
+    wrong = {who: answer for who, answer in answers.items() if isinstance(answer, (ImportError, AttributeError))}
+    for who, error in wrong.items():
+        raise FddbenchError(
+            f"{len(wrong)} of {len(answers)} workers of dask cannot fly ({who}: {reason_of(error)}); they need fddbench and "
+            "the packages of its plug-ins in the versions that are installed here"
+        )
+
+
 @contextmanager
 def _client(distributed: Any, jobs: int, address: str | None) -> Iterator[Any]:
     if address is None:
-        with (
-            distributed.LocalCluster(
+        with _deaf_to_interrupts():
+            cluster = distributed.LocalCluster(
                 n_workers=jobs, threads_per_worker=1, memory_limit=0, dashboard_address=None, silence_logs=50
-            ) as cluster,
-            distributed.Client(cluster, set_as_default=False) as client,
-        ):
+            )
+        with cluster, distributed.Client(cluster, set_as_default=False) as client:
             yield client
         return
     try:
@@ -56,6 +77,19 @@ def _client(distributed: Any, jobs: int, address: str | None) -> Iterator[Any]:
         yield client
 
 
+@contextmanager
+def _deaf_to_interrupts() -> Iterator[None]:
+    """Leave Ctrl-C in a terminal to this process: workers that begin meanwhile inherit that they ignore it."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
 def _backend() -> Any:
     """Backend of joblib that also says so when a task ends in an error.
 
@@ -65,6 +99,10 @@ def _backend() -> Any:
     from joblib._dask import DaskDistributedBackend
 
     class Answering(DaskDistributedBackend):  # type: ignore[misc]
+        def effective_n_jobs(self, n_jobs: int) -> int:
+            # of a cluster of one joblib would fly everything in this process
+            return max(int(super().effective_n_jobs(n_jobs)), 2)
+
         async def _collect(self) -> None:
             import asyncio
 

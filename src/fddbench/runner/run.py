@@ -19,6 +19,7 @@ from fddbench.runner.chunks import CHUNK, COMPILED_CHUNK, OPAQUE_CHUNK, cut, spa
 from fddbench.runner.engines import Engine
 from fddbench.runner.fingerprint import fingerprint_of, provenance_for
 from fddbench.runner.flight import Flyer
+from fddbench.runner.in_c import InC
 from fddbench.runner.left import Part, Wanted, left_in
 from fddbench.runner.pool import fly_all
 from fddbench.runner.rehearsal import rehearsed
@@ -99,8 +100,8 @@ def run_campaign(
         Who flies, with its own number of workers; no part of any result.
     fresh : bool
         Replace what the folder holds.
-    backend : {"auto", "llvm", "numpy"}
-        ``auto`` compiles where llvmlite is installed; no part of any result.
+    backend : {"auto", "llvm", "numpy"}, or one of them and "+c"
+        See `fddbench.runner.flight.Flyer`; no part of any result.
     wanted, retry_failed : array of bool, optional, and bool
         Fly these rows only, (n_detectors, n_cases), see `fddbench.campaign.selection`; fly shards again that have failed rows.
     progress, notice : callable
@@ -119,7 +120,7 @@ def run_campaign(
     own.require_able(compiled=flyer.compiled, opaque=tuple(flyer.opaque))
     say = notice or _warned
     with locked(folder, notice=say):
-        claim(folder, files=campaign.files(), provenance=provenance_for(plan, fingerprint), fresh=fresh)
+        claim(folder, files=campaign.files(), provenance=provenance_for(plan, fingerprint) | in_c(flyer), fresh=fresh)
         left = left_in(folder, say, wanted=wanted, again=FAILED if retry_failed else frozenset())
         told = _Told(before=left.n_wanted - left.n_left, total=left.n_wanted, statuses=left.statuses, progress=progress)
         told.tell()
@@ -143,6 +144,12 @@ def _report(folder: Path, told: "_Told", *, interrupted: bool, wall_s: float) ->
         interrupted=interrupted,
         wall_s=wall_s,
     )
+
+
+def in_c(flyer: Flyer) -> dict[str, object]:
+    """Which detectors fly as C, and who compiled it, for the provenance; nothing where none does."""
+    flown = {name: own.detector for name, own in flyer.assembly.detectors.items() if isinstance(own.detector, InC)}
+    return {"flown_as_c": {name: str(each.by) for name, each in flown.items()}} if flown else {}
 
 
 def _few_files(folder: Path, fingerprint: str, say: Callable[[str], None]) -> None:

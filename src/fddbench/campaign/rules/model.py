@@ -240,6 +240,8 @@ class CampaignFile(Strict):
     reconfigure : str
         One of these detectors, if the aircraft is to act on what it declares: at every sample on its declarations of the
         sample before. Nobody else's declarations, and no other detector in the list, have a part in the flight.
+    symbols : str or list of symbols
+        Library of operations that every detector must keep to, see `fddbench.exported.symbols`; decides no row.
     report : mapping
         What else the report shows.
     requirements : list of RequirementEntry
@@ -258,6 +260,7 @@ class CampaignFile(Strict):
     dispersions: Dispersions = Dispersions()
     detectors: Annotated[tuple[DetectorEntry, ...], Field(min_length=1)]
     reconfigure: Name | None = None
+    symbols: str | list[str | dict[str, Annotated[int, Field(ge=1)]]] | None = None
     report: ReportEntry = ReportEntry()
     requirements: tuple[RequirementEntry, ...] = ()
 
