@@ -14,7 +14,7 @@ from fddbench.reporting.svg.scene import Mark, Path, Scene, Text
 
 __all__ = ["Settling", "convergence_scene", "settling"]
 
-_LOOKS = 10
+_LOOKS = 8
 
 
 @dataclass(frozen=True, eq=False)
