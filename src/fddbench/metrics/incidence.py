@@ -28,7 +28,7 @@ from fddbench.metrics.clustered import pooled_intervals
 __all__ = ["MOST_TIMES", "Incidence", "incidence"]
 
 _ENDED = ("right", "late", "wrong_site", "false_alarm")
-MOST_TIMES = 16
+MOST_TIMES = 11
 """Times at which a curve is kept; between them it stands at the last one."""
 
 

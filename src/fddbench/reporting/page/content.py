@@ -1,6 +1,6 @@
 """What stands in each section of the page."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import pandas as pd
@@ -17,8 +17,9 @@ from fddbench.reporting.consequences import consequence_heads, consequence_lines
 from fddbench.reporting.guarantees import guarantee_lines
 from fddbench.reporting.labels import OUTCOMES
 from fddbench.reporting.page.answer import answer
-from fddbench.reporting.page.cells import cells
+from fddbench.reporting.page.cells import Cell, cells
 from fddbench.reporting.page.columns import Columns
+from fddbench.reporting.page.convergence import convergence_scene
 from fddbench.reporting.page.courses import courses, loudest
 from fddbench.reporting.page.data import ReportData
 from fddbench.reporting.page.envelope import envelope_maps, envelope_pairs, infeasible_map
@@ -30,6 +31,7 @@ from fddbench.reporting.page.ranks import rank_lines
 from fddbench.reporting.page.requirements import requirement_lines, requirement_sentence
 from fddbench.reporting.page.traces import signal_sections
 from fddbench.reporting.reasons import REASONS
+from fddbench.reporting.references import bibliography
 
 __all__ = ["content"]
 
@@ -58,7 +60,23 @@ def content(report: ReportData) -> dict[str, Any]:
         "outcomes": [(look, OUTCOMES[name]) for name, look in _LEGEND.items()],
         **_pictures(report, columns, ranks, alarms),
         **_more(report, summary),
+        "converging": [scene for line in ranks if (scene := convergence_scene(columns, line)) is not None],
+        "references": bibliography(_methods(own.values())),
     }
+
+
+def _methods(own: Iterable[Cell]) -> set[str]:
+    """Methods that the numbers of a page stand on."""
+    found = {"share", "pooled", "rate", "colours"}
+    for cell in own:
+        told = {
+            "incidence": cell.incidence,
+            "association": cell.associations,
+            "paired": cell.paired,
+            "monotone": cell.size,
+        }
+        found |= {name for name, what in told.items() if what}
+    return found
 
 
 _LEGEND = {"right": "o0", "late": "o1", "missed": "o3", "wrong_site": "o4", "false_alarm": "o5", "undecided": "o2"}
@@ -120,7 +138,7 @@ def _more(report: ReportData, summary: pd.DataFrame) -> dict[str, Any]:
     """What is folded away."""
     rows = report.rows
     reasons = tables.reason_lines(rows)
-    compared = [found for table in report.published if (found := beside(summary, table)) is not None]
+    compared = [found for table in report.published if (found := beside(summary, table, report.campaign)) is not None]
     return {
         "compared": compared,
         "guarantees": guarantee_lines(rows, report.events, report.designs),
