@@ -10,9 +10,12 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from fddbench.api.bounds import bounds
     from fddbench.api.campaigns import plan, read, run
+    from fddbench.api.compacting import compact
     from fddbench.api.comparing import compare
     from fddbench.api.curves import operating_curve
+    from fddbench.api.databases import duckdb
     from fddbench.api.datasets import dataset
+    from fddbench.api.deciding import run_until_decided
     from fddbench.api.designs import tune
     from fddbench.api.detection_curves import pod
     from fddbench.api.exporting import export
@@ -24,6 +27,7 @@ if TYPE_CHECKING:
     from fddbench.api.pictures import reconstruction_picture, tradeoff_picture
     from fddbench.api.replaying import table_of
     from fddbench.api.schemas import schema
+    from fddbench.api.sharding import fly_shard, plan_shards, slurm_job
     from fddbench.api.summaries import summary
     from fddbench.api.tables import alarms, columns, detectable, load, load_events
     from fddbench.api.tradeoffs import tradeoff
@@ -36,25 +40,32 @@ __all__ = [
     "alarms",
     "bounds",
     "columns",
+    "compact",
     "compare",
     "dataset",
     "detectable",
+    "duckdb",
     "export",
     "extend",
     "finding",
+    "fly_shard",
     "load",
     "load_events",
     "merge",
     "operating_curve",
     "plan",
+    "plan_shards",
     "pod",
     "read",
     "reconstruction_picture",
     "report",
+    "requirements",
     "run",
+    "run_until_decided",
     "schema",
     "score",
     "signals",
+    "slurm_job",
     "summary",
     "table_of",
     "tradeoff",
@@ -71,9 +82,12 @@ _ROOMS = {
     **dict.fromkeys(("alarms", "columns", "detectable", "load", "load_events"), "tables"),
     **dict.fromkeys(("score", "signals"), "flights"),
     **dict.fromkeys(("reconstruction_picture", "tradeoff_picture"), "pictures"),
+    **dict.fromkeys(("fly_shard", "plan_shards", "slurm_job"), "sharding"),
+    "compact": "compacting",
     "compare": "comparing",
     "bounds": "bounds",
     "dataset": "datasets",
+    "duckdb": "databases",
     "extend": "extending",
     "merge": "merging",
     "export": "exporting",
@@ -82,6 +96,8 @@ _ROOMS = {
     "schema": "schemas",
     "summary": "summaries",
     "report": "pages",
+    "requirements": "requiring",
+    "run_until_decided": "deciding",
     "table_of": "replaying",
     "tradeoff": "tradeoffs",
     "operating_curve": "curves",

@@ -25,7 +25,9 @@ __all__ = [
     "ResultsWarning",
     "UnknownNameError",
     "UntrustedError",
+    "by_statement",
     "did_you_mean",
+    "one_line",
     "place_of",
     "raise_interrupt",
     "reason_of",
@@ -46,6 +48,16 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
     return f"Did you mean {close[0]!r}?" if close else ""
 
 
+def one_line(text: str) -> str:
+    r"""Foreign text in one line, without characters that a terminal obeys.
+
+    >>> one_line("two\nlines \x1b[31mred")
+    'two lines \\x1b[31mred'
+    """
+    words = " ".join(text.encode("utf-8", "backslashreplace").decode().split())
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in words)
+
+
 def reason_of(error: BaseException) -> str:
     r"""What an exception of foreign code says: its kind and text in one line of at most 200 characters; never raises.
 
@@ -53,7 +65,7 @@ def reason_of(error: BaseException) -> str:
     'ValueError: two lines'
     """
     try:
-        text = " ".join(str(error).encode("utf-8", "backslashreplace").decode().split())
+        text = one_line(str(error))
     except BaseException as worse:  # a foreign text may raise anything as well
         raise_interrupt(worse)
         text = "(its text cannot be made)"
@@ -84,11 +96,11 @@ def raise_interrupt(error: BaseException) -> None:
 
     For ``except BaseException`` around foreign code: a detector may raise SystemExit, GeneratorExit, MemoryError, whatever.
     """
-    if isinstance(error, KeyboardInterrupt) and not _by_statement(error):
+    if isinstance(error, KeyboardInterrupt) and not by_statement(error):
         raise error
 
 
-def _by_statement(error: BaseException) -> bool:
+def by_statement(error: BaseException) -> bool:
     """Whether a ``raise`` in somebody's code raised this; Ctrl-C comes between two instructions, wherever they are."""
     last = error.__traceback__
     while last is not None and last.tb_next is not None:

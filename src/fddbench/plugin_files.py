@@ -23,7 +23,7 @@ from typing import Any
 
 from fddbench.errors import FddbenchError, reason_of
 
-__all__ = ["LoadedClass", "is_file_kind", "load_class", "none_run", "noticed_reads"]
+__all__ = ["LoadedClass", "code_in", "is_file_kind", "load_class", "none_run", "noticed_reads"]
 
 _PATTERN = re.compile(r"([A-Za-z_][A-Za-z0-9_]*\.py):([A-Za-z_][A-Za-z0-9_]*)")
 _LARGEST = 200_000_000
@@ -93,6 +93,34 @@ def load_class(name: str, folder: Path) -> LoadedClass:
         names = [each for each, value in vars(loaded.module).items() if _defined_in(value, loaded.module)]
         raise FddbenchError(f"{path} has no {match[2]!r}. It has: {', '.join(names) or 'none'}")
     return LoadedClass(getattr(loaded.module, match[2]), {path.name: text, **loaded.others})
+
+
+def code_in(name: str, folder: Path) -> dict[str, bytes]:
+    """Headers and sources of C in a folder beside a design, by their names from there; self-tests and vectors left out.
+
+    Raises
+    ------
+    FddbenchError
+        It is not beside the design, or holds no source.
+    """
+    refused = _refused.get()
+    if refused is not None:
+        refused.append(name)
+        raise FddbenchError(f"{name} is not run")
+    where = folder / name
+    if (
+        not where.is_dir()
+        or not where.resolve().is_relative_to(folder.resolve())
+        or where.resolve() == folder.resolve()
+    ):
+        raise FddbenchError(f"no folder {name!r} in {folder}; code lies in a folder beside the design that names it")
+    files = sorted(path for path in where.iterdir() if path.suffix in {".c", ".h"} and path.is_file())
+    kept = [path for path in files if not path.stem.endswith(("_selftest", "_vectors"))]
+    if not any(path.suffix == ".c" for path in kept):
+        raise FddbenchError(
+            f"{where} holds no .c file; it needs the source, and the header that fddbench export writes"
+        )
+    return {f"{name.rstrip('/')}/{path.name}": path.read_bytes() for path in kept}
 
 
 def _defined_in(value: Any, module: ModuleType) -> bool:

@@ -62,6 +62,7 @@ def test_frozen_text_means_the_same(write, tmp_path):
     ("override", "same"),
     [
         ("about=another question", True),
+        ("requirements=[{of: right_share, at_least: 0.9}]", True),
         ("sample_s=0.010", True),
         ("plant=lateral_lpv", True),
         ("purpose=evaluation", True),

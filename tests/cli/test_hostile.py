@@ -245,7 +245,7 @@ def test_a_full_disk_is_said_and_nothing_is_lost(done, capsys, monkeypatch):
 
     next((done / "rows").iterdir()).unlink()
     monkeypatch.setattr(shards, "write_bytes", full)
-    assert main(["run", "tiny.yaml", "--quiet", "--jobs", "1", "--out", "out"]) == 2
+    assert main(["run", "tiny.yaml", "--quiet", "--jobs", "1", "--out", "out"]) == 74
     assert "No space left on device" in capsys.readouterr().err
     monkeypatch.undo()
     monkeypatch.chdir(done.parent)

@@ -43,3 +43,22 @@ def test_a_name_that_says_its_row_stands_beside_that_row_alone(summary, make_row
 
 def test_what_is_not_in_print_has_no_table(summary):
     assert beside(summary("healthy"), published("table8")) is None
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"wind": "light"}, "wind light, in print none"),
+        ({"onset_s": 5.0}, "onset 5 s, in print 2 s"),
+        ({"amplitude_percent": 2.5}, "amplitude 2.5 %, in print 1.25 %"),
+        ({"amplitude_percent": {"uniform": [1, 2]}}, "amplitude drawn or swept, in print 1.25 %"),
+        ({"sites": ["r1", "r2"]}, "2 faulty sites, in print 1"),
+        ({}, ""),
+    ],
+)
+def test_only_the_same_conditions_stand_beside_print(make_rows, changes, words):
+    fault = {"kind": "jam", "sites": ["r1"], "onset_s": 2.0, "amplitude_percent": 1.25}
+    fault |= {name: value for name, value in changes.items() if name != "wind"}
+    campaign = {"wind": changes.get("wind", "none"), "scenarios": [{"name": "jam_a", "faults": [fault]}]}
+    found = beside(summarize(make_rows(("jam_a",), ("d",), 5)), published("table8"), campaign)
+    assert (found.apart, len(found.lines)) == (((("jam_a", words),), 0) if words else ((), 1))

@@ -184,6 +184,7 @@ def test_another_name_for_the_same_campaign_is_the_same(out, tmp_path):
     (tmp_path / "again.yaml").write_text(TEXT.replace("name: small", "name: small\nabout: in other words"))
     again = read_campaign(tmp_path / "again.yaml")
     assert fly(again, out).flights == 0
+    assert "in other words" in (out / "campaign.yaml").read_text()
     (out / "campaign.yaml").unlink()
     assert fly(again, out).flights == 0
     assert report(out).is_file()

@@ -55,7 +55,7 @@ def test_a_whole_folder_says_nothing_of_it(flown, capsys):
 def test_a_command_prints_the_warning_as_a_line(partial, campaign, capsys, monkeypatch):
     from fddbench.api import pages
 
-    monkeypatch.setattr(pages, "report", lambda folder, output: len(load(folder)))
+    monkeypatch.setattr(pages, "report", lambda folders, output, **more: len(load(folders[0])))
     assert main(["report", str(partial)]) == 0
     assert (
         capsys.readouterr().err

@@ -10,6 +10,9 @@ from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.plan import Plan
 from fddbench.campaign.plan import plan as planned
+from fddbench.campaign.selection import selected
+from fddbench.errors import FddbenchError
+from fddbench.runner.engines import Engine
 from fddbench.runner.run import Progress, RunReport, run_campaign
 
 __all__ = ["plan", "read", "run"]
@@ -54,6 +57,11 @@ def run(
     jobs: int = 2,
     fresh: bool = False,
     backend: str = "auto",
+    compiled_as: str | None = None,
+    engine: str = "auto",
+    address: str | None = None,
+    only: str | Sequence[str] = (),
+    retry_failed: bool = False,
     progress: Callable[[Progress], None] | None = None,
     notice: Callable[[str], None] | None = None,
     summarised: Callable[[pd.DataFrame, pd.DataFrame], None] | None = None,
@@ -65,11 +73,19 @@ def run(
     campaign : Campaign, str or Path
         As read, or what `read` takes.
     folder : str or Path, optional
-        Where the results go, ``results/<name>`` by default.
-    jobs, fresh, backend, progress, notice
+        Of results, ``results/<name>`` by default.
+    jobs, fresh, backend, retry_failed, progress, notice
         See `fddbench.runner.run.run_campaign`.
+    compiled_as : {"c"}, optional
+        Detectors fly as the C that `fddbench.export` writes; the same rows.
+    engine : {"auto", "threads", "loky", "dask", "ray"}
+        Who flies; no part of any result. ``auto``: threads where compiled code flies, else processes.
+    address : str, optional
+        Of a dask or ray cluster, ``tcp://host:8786``; by default one of this machine for the time of the run.
+    only : str or sequence of str
+        Fly a part, ``"scenario=jam_a,run=0-99"``, of several texts all that any names; the folder is in part until the rest is.
     summarised : callable, optional
-        Called at the end of a run that was not interrupted with what ``fddbench.summary`` and ``fddbench.alarms`` give.
+        Called at the end of a whole run with what ``fddbench.summary`` and ``fddbench.alarms`` give.
 
     Raises
     ------
@@ -78,9 +94,29 @@ def run(
     """
     own = campaign if isinstance(campaign, Campaign) else read(campaign)
     where = Path("results") / own.name if folder is None else Path(folder)
-    report = run_campaign(own, where, jobs=jobs, fresh=fresh, backend=backend, progress=progress, notice=notice)
+    words = [only] if isinstance(only, str) else only
+    report = run_campaign(
+        own,
+        where,
+        engine=Engine(name=engine, jobs=jobs, address=address),
+        fresh=fresh,
+        backend=_with_code(backend, compiled_as),
+        wanted=selected(planned(own), words) if words else None,
+        retry_failed=retry_failed,
+        progress=progress,
+        notice=notice,
+    )
     if not report.interrupted:
-        tables = leave_summary(where)
-        if summarised is not None:
-            summarised(*tables)
+        (summarised or _unheard)(*leave_summary(where))
     return report
+
+
+def _unheard(*_: pd.DataFrame) -> None:
+    """Nobody asked for the tables."""
+
+
+def _with_code(backend: str, compiled_as: str | None) -> str:
+    """Back end with the language in which detectors fly."""
+    if compiled_as not in (None, "c"):
+        raise FddbenchError(f"detectors fly as C or as they are; got compiled_as={compiled_as!r}, known: 'c'")
+    return backend if compiled_as is None else f"{backend}+{compiled_as}"

@@ -44,6 +44,9 @@ COMPARISON = pa.schema(
     ]
 )
 
+Stated = tuple[str, tuple[str, ...], tuple[str, ...]]
+"""A measure, and the scenarios and detectors of which a campaign requires it."""
+
 _NEEDS = ("scenario", "point", "level", "run", "detector", "status", "outcome", "n_faulty", "detection_time_s")
 _LEVEL = 0.05
 
@@ -94,8 +97,17 @@ def compare(
     return table
 
 
-def got_worse(table: pd.DataFrame, measures: Sequence[str]) -> pd.DataFrame:
+def got_worse(table: pd.DataFrame, measures: Sequence[str], stated: Sequence[Stated] = ()) -> pd.DataFrame:
     """Lines of a comparison in which one of these measures got worse.
+
+    Parameters
+    ----------
+    table : DataFrame
+        As `compare` gives it.
+    measures : sequence of str
+        Names of `MEASURES`, of every scenario and detector.
+    stated : sequence of (measure, scenarios, detectors)
+        Measures of some scenarios and detectors only, as of `fddbench.api.requiring.stated`.
 
     Raises
     ------
@@ -105,7 +117,11 @@ def got_worse(table: pd.DataFrame, measures: Sequence[str]) -> pd.DataFrame:
     unknown = [name for name in measures if name not in MEASURES]
     if unknown:
         raise FddbenchError(f"nothing is measured as {unknown[0]!r}; known: {', '.join(MEASURES)}")
-    chosen = table["measure"].isin(list(measures)) & (table["verdict"] == "worse")
+    chosen = table["measure"].isin(list(measures))
+    for measure, scenarios, detectors in stated:
+        named = table["scenario"].isin(list(scenarios)) & table["detector_b"].isin(list(detectors))
+        chosen |= (table["measure"] == measure) & named
+    chosen &= table["verdict"] == "worse"
     return table[np.asarray(chosen.fillna(False), dtype=bool)]
 
 

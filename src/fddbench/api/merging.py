@@ -12,9 +12,11 @@ from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.reading.canonical import canonical_text
 from fddbench.errors import FddbenchError
+from fddbench.results.folder import changed_files, provenance_of
 from fddbench.results.whole import Holdings, holdings
 from fddbench.runner.fingerprint import frozen
 from fddbench.runner.merging import merge_into
+from fddbench.runner.shares import is_planned, share_folders
 
 __all__ = ["merge"]
 
@@ -29,7 +31,8 @@ def merge(folders: Sequence[str | Path], output: str | Path) -> Holdings:
     Parameters
     ----------
     folders : sequence of str or Path
-        Two or more folders of results; they are not written to.
+        Two or more folders of results, or one that was planned in shards, which stands for those that were flown; they are
+        not written to.
     output : str or Path
         New folder.
 
@@ -38,13 +41,24 @@ def merge(folders: Sequence[str | Path], output: str | Path) -> Holdings:
     FddbenchError
         A folder is none of results, they do not belong together (the message says why), or `output` holds something.
     """
-    paths = [Path(each) for each in folders]
-    if len({path.resolve() for path in paths}) < 2:
+    given = [Path(each) for each in folders]
+    planned = [path for path in given if is_planned(path)]
+    paths = [part for path in given for part in (share_folders(path) if path in planned else [path])]
+    if planned and not paths:
+        raise FddbenchError(f"no shard of {planned[0]} was flown; fddbench shard 1 {planned[0]}")
+    if not planned and len({path.resolve() for path in paths}) < 2:
         raise FddbenchError("two different folders of results at least; one alone is merged already")
     out = Path(output)
     if out.resolve() in {path.resolve() for path in paths}:
         raise FddbenchError(f"{out} is one of the folders to merge; name a new one with --output")
-    parts = {path: frozen(path) for path in paths}
+    read: dict[tuple[str, str], Campaign] = {}
+    parts: dict[Path, Campaign] = {}
+    for path in paths:  # shards have all the same campaign, which is read once
+        provenance = provenance_of(path)
+        key = (str(provenance["fingerprints"]), provenance["campaign_yaml_sha256"])
+        if key not in read or changed_files(path):
+            read[key] = frozen(path)
+        parts[path] = read[key]
     with TemporaryDirectory() as aside:
         merge_into(out, parts, _whole(list(parts.values()), Path(aside)))
     leave_summary(out)

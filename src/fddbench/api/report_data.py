@@ -1,6 +1,7 @@
 """Gathers from a folder of results what its page shows; the signals are flown again from the frozen campaign."""
 
 from collections.abc import Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ from fddbench.api.bounds import bounds_of
 from fddbench.api.curves import operating_of
 from fddbench.api.detectability import detectable_of
 from fddbench.api.findings import swept_columns
+from fddbench.api.requiring import judgements
 from fddbench.campaign.meaning import Campaign
 from fddbench.reporting.bands import names_in
 from fddbench.reporting.page.columns import NEEDS
@@ -33,12 +35,27 @@ from fddbench.runner.replay import replay_campaign, sampled_cases
 
 __all__ = ["report_data"]
 
+_OF_EVENTS = (
+    *(
+        "scenario",
+        "event",
+        "detector",
+        "fault",
+        "sites",
+        "onset_s",
+        "end_s",
+        "run",
+        "status",
+        "outcome",
+        "detection_time_s",
+    ),
+)
 _SETTINGS = ("name", "about", "benchmark", "purpose", "seed", "sample_s", "substeps")
 _AFTER_S, _LEAST_S = 3.0, 5.0
 
 
-def report_data(folder: Path) -> ReportData:
-    """Everything the page of a folder of results shows.
+def report_data(folder: Path, *, replay: bool = True) -> ReportData:
+    """Everything the page of a folder of results shows; without replay neither signals nor bands nor the bound.
 
     Raises
     ------
@@ -51,24 +68,13 @@ def report_data(folder: Path) -> ReportData:
     content |= yaml.safe_load(campaign.text)
     assembly, bench = assemble(campaign), campaign.bench
     rows = read_rows(folder, _columns(folder))
-    pictured = _pictured(rows, content)
-    chosen = sampled_cases(pictured, seed=campaign.seed)
     return ReportData(
         campaign=content,
         rows=rows,
-        events=read_events(folder),
+        events=read_events(folder, _OF_EVENTS),
         provenance=_flat(provenance) | _replayed(folder, campaign),
         designs=_designs(campaign, assembly),
-        recordings=list(
-            replay_campaign(
-                campaign,
-                chosen,
-                seconds=_seconds(rows),
-                signals=campaign.shown,
-                scenarios=list(chosen),
-            )
-        ),
-        **_bands(campaign, pictured, content),
+        **(_flown_again(campaign, rows, content) if replay else {"recordings": []}),
         folder=folder.as_posix(),
         reasons=reason_table(campaign.name, campaign.sha256),
         published=published_for(content, getattr(bench, "published", "")),
@@ -79,9 +85,9 @@ def report_data(folder: Path) -> ReportData:
         limits_from=bench.limits_from,
         partial=found.sentence if found.partial else "",
         detectable=detectable_of(rows, campaign),
-        bounds=bounds_of(campaign),
         consequences=assembly.consequences.announced,
         swept=swept_columns(rows, campaign),
+        requirements=[asdict(each) for each in judgements(folder, campaign)],
         operating=operating_of(rows, campaign),
     )
 
@@ -123,6 +129,16 @@ def _worst_scenarios(rows: pd.DataFrame) -> list[str]:
     shares = failed.groupby(rows["scenario"], sort=False).mean().sort_values(ascending=False, kind="stable")
     chosen = set(shares.index[:MOST_SCENARIOS])
     return [str(name) for name in rows["scenario"].unique() if name in chosen]
+
+
+def _flown_again(campaign: Campaign, rows: pd.DataFrame, content: Mapping[str, Any]) -> dict[str, Any]:
+    """Recordings, bands and the bound: what needs flights."""
+    pictured = _pictured(rows, content)
+    chosen = sampled_cases(pictured, seed=campaign.seed)
+    recordings = replay_campaign(
+        campaign, chosen, seconds=_seconds(rows), signals=campaign.shown, scenarios=list(chosen)
+    )
+    return {"recordings": list(recordings), "bounds": bounds_of(campaign)} | _bands(campaign, pictured, content)
 
 
 def _bands(campaign: Campaign, rows: pd.DataFrame, content: Mapping[str, Any]) -> dict[str, Any]:

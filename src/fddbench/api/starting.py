@@ -35,6 +35,16 @@ STARTERS: Mapping[str, Mapping[str, str]] = {
 }
 """What is started → file to write → what it is made of; NAME stands for the name and CLASS for the name of its class."""
 
+_DATA = "../benchmarks/recorded/data"
+_RECORDED = {
+    "campaigns/logs/doublet.csv": f"{_DATA}/doublet.csv",
+    "campaigns/logs/jam.csv": f"{_DATA}/jam.csv",
+    "campaigns/logs/faults.csv": f"{_DATA}/faults.csv",
+    "campaigns/logs/mapping.yaml": f"{_DATA}/yaw_rate_flights.yaml",
+    "campaigns/logged.yaml": "recorded_campaign.yaml.txt",
+}
+"""What ``--benchmark recorded`` writes: no benchmark of one's own, but logs, which may be exchanged for others."""
+
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
 
 
@@ -55,7 +65,8 @@ def start(folder: Path, what: str, name: str) -> list[Path]:
         raise FddbenchError(
             f"a shipped design is called {name!r}; choose another name, so that nobody takes one for the other"
         )
-    texts = {folder / path.replace("NAME", name): _text(source, name) for path, source in STARTERS[what].items()}
+    sources = _RECORDED if (what, name) == ("benchmark", "recorded") else STARTERS[what]
+    texts = {folder / path.replace("NAME", name): _text(source, name) for path, source in sources.items()}
     there = [str(path) for path in texts if path.exists()]
     if there:
         raise FddbenchError(f"{', '.join(there)} is there already and is left alone; choose another name or folder")

@@ -15,8 +15,10 @@ from fddbench.metrics.alarms import ALARMS, summarize_alarms
 from fddbench.metrics.bound import BOUNDS
 from fddbench.metrics.detectable import DETECTABLE
 from fddbench.metrics.operating import OPERATING
+from fddbench.metrics.requirements import JUDGEMENTS
 from fddbench.metrics.summary import NEEDS, SUMMARY, summarize
 from fddbench.results import table
+from fddbench.results.filters import Condition
 from fddbench.results.fingerprint import Fingerprint
 from fddbench.results.folder import provenance_of
 from fddbench.results.schema import CASE, EVENTS, rows_schema
@@ -26,12 +28,18 @@ from fddbench.runner.fingerprint import frozen
 __all__ = ["alarms", "columns", "detectable", "in_sample", "leave_summary", "load", "load_events", "overview"]
 
 
-def load(folder: str | Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
+def load(
+    folder: str | Path, columns: Sequence[str] | None = None, filters: Sequence[Condition] | None = None
+) -> pd.DataFrame:
     """Rows of a folder of results, one per case and detector; Arrow-backed pandas, null means none.
 
     See `fddbench.results.table.load`.
+
+    Examples
+    --------
+    >>> load("results/smoke", ["case", "outcome"], [("detector", "=", "voting_monitor")])  # doctest: +SKIP
     """
-    return table.load(folder, columns)
+    return table.load(folder, columns, filters)
 
 
 def load_events(folder: str | Path) -> pd.DataFrame:
@@ -111,9 +119,9 @@ def columns(table: str = "rows") -> dict[str, str]:
 
     Parameters
     ----------
-    table : {"rows", "events", "summary", "alarms", "detectable", "bounds", "operating"}
-        As `load`, `load_events`, `summary`, `alarms`, `detectable`, `bounds` and `operating_curve` give them. Rows have
-        besides a column ``p_<name>`` a parameter, ``f1_<key>`` what is drawn or swept of the first fault, and
+    table : {"rows", "events", "summary", "alarms", "detectable", "bounds", "operating", "requirements"}
+        As `load`, `load_events`, `summary`, `alarms`, `detectable`, `bounds`, `operating_curve` and `requirements` give
+        them. Rows have besides a column ``p_<name>`` a parameter, ``f1_<key>`` what is drawn or swept of the first fault, and
         ``gain_<key>`` or ``factor_<key>`` what is swept of detectors.
 
     Examples
@@ -122,7 +130,7 @@ def columns(table: str = "rows") -> dict[str, str]:
     'from the onset to the first alarm raised since [s]; null: none'
     """
     known = {"rows": [CASE, *rows_schema(())], "events": [CASE, *EVENTS], "summary": SUMMARY, "alarms": ALARMS}
-    known |= {"detectable": DETECTABLE, "bounds": BOUNDS, "operating": OPERATING}
+    known |= {"detectable": DETECTABLE, "bounds": BOUNDS, "operating": OPERATING, "requirements": JUDGEMENTS}
     if table not in known:
         raise FddbenchError(f"no table is called {table!r}; known: {', '.join(known)}")
     return {field.name: field.metadata[b"about"].decode() for field in known[table]}

@@ -8,6 +8,7 @@ from typing import Any
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.plan import Plan, PlannedScenario
 from fddbench.campaign.rules.model import Dispersions, Distribution
+from fddbench.campaign.rules.required import name_of
 from fddbench.campaign.variation import at_levels
 from fddbench.designs.design import Design
 from fddbench.faults.specification import FaultSpecification
@@ -184,6 +185,11 @@ def _rest(plan: Plan) -> Iterator[str]:
     yield "Detectors"
     for name in dict.fromkeys(design.base for design in plan.campaign.designs):
         yield from _design([design for design in plan.campaign.designs if design.base == name])
+    if plan.campaign.requirements:
+        yield "Required of them, judged after the run"
+    for entry in plan.campaign.requirements:
+        who = f": {', '.join(entry.detectors)}" if entry.detectors else ""
+        yield f"  {name_of(entry)}{who}, at {100 * entry.confidence:g} % confidence"
 
 
 def _dispersions(dispersions: Dispersions) -> Iterator[str]:

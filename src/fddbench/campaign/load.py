@@ -111,6 +111,7 @@ def _meaning(
         scenarios=tuple(scenarios),
         designs=designs,
         reconfigure=written.reconfigure or "",
+        symbols=written.symbols,
         reconfigure_where=document.where(("reconfigure",)),
         text=canonical_text(document.data),
         table=table,
@@ -127,7 +128,9 @@ def _content(
     beside: Mapping[str, bytes],
 ) -> dict[str, Any]:
     """Everything that decides rows, as plain data."""
-    content: dict[str, Any] = written.model_dump(mode="json", exclude={"about", "scenarios", "report"}) | dict(choices)
+    content: dict[str, Any] = written.model_dump(
+        mode="json", exclude={"about", "scenarios", "report", "requirements", "symbols"}
+    ) | dict(choices)
     content["scenarios"] = [
         entry.model_dump(mode="json")
         | {"faults": [fault.model_dump(mode="json", by_alias=True) for fault in faults[number]]}
@@ -146,4 +149,15 @@ def _content(
     return content
 
 
-_AS_WRITTEN = ("name", "about", "benchmark", "purpose", "seed", "sample_s", "substeps", "duration_s", "dispersions")
+_AS_WRITTEN = (
+    "name",
+    "about",
+    "benchmark",
+    "purpose",
+    "seed",
+    "sample_s",
+    "substeps",
+    "duration_s",
+    "dispersions",
+    "requirements",
+)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from fddbench.campaign.rules.model import Dispersions, Purpose, ScenarioEntry
+from fddbench.campaign.rules.model import Dispersions, Purpose, RequirementEntry, ScenarioEntry
 from fddbench.designs.design import Design
 from fddbench.faults.specification import FaultSpecification
 from fddbench.interfaces import Benchmark, Floats, Plant
@@ -52,14 +52,18 @@ class Campaign:
         Detectors in the order of the file.
     reconfigure, reconfigure_where : str
         Name of the detector on whose declarations the aircraft acts, "" for none, and where the file says so.
+    requirements : tuple of RequirementEntry
+        What is required of its detectors; no part of any row.
     text : str
         Canonical YAML of the campaign with all overrides; `read_campaign` reads it back to the same campaign.
     table : mapping of str to (n_rows,) array
         Explicit cases by name of the parameter, a row a run; empty without.
     beside : mapping of str to bytes
         Files beside the campaign that its kinds come from.
+    symbols : str, list or None
+        Library of operations that every detector must keep to.
     sha256 : str
-        Of the meaning without `about`, of the designs and of the files: equal hashes give equal rows.
+        Of the meaning without `about` and what is required, of the designs and of the files: equal hashes give equal rows.
     """
 
     path: Path
@@ -80,10 +84,12 @@ class Campaign:
     designs: tuple[Design, ...]
     reconfigure: str
     reconfigure_where: str = field(repr=False)
+    requirements: tuple[RequirementEntry, ...]
     text: str = field(repr=False)
     table: Mapping[str, Floats] = field(repr=False)
     beside: Mapping[str, bytes] = field(repr=False)
     sha256: str
+    symbols: Any = None
 
     @property
     def shown(self) -> tuple[str, ...]:

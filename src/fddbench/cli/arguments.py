@@ -4,13 +4,14 @@ import argparse
 from pathlib import Path
 
 from fddbench import __version__
-from fddbench.cli import aircraft, commands, completing, counting, data_sets, designing, exporting, looking
+from fddbench.cli import aircraft, commands, completing, counting, data_sets, designing, exporting, looking, requiring
 from fddbench.cli.added import add
 from fddbench.cli.checked_numbers import flights as _flights
-from fddbench.cli.checked_numbers import jobs as _jobs
 from fddbench.cli.checked_numbers import probability as _probability
 from fddbench.cli.checked_numbers import share as _share
 from fddbench.cli.folder_arguments import growing_arguments, looking_arguments, trusting, verify_arguments
+from fddbench.cli.run_arguments import run_arguments
+from fddbench.cli.sharding import sharding_arguments
 
 __all__ = ["parser"]
 
@@ -20,35 +21,22 @@ def parser() -> argparse.ArgumentParser:
     top = argparse.ArgumentParser(
         prog="fddbench",
         description="Monte-Carlo benchmark campaigns for aerospace fault detection and diagnosis.",
-        epilog="Exit codes: 0 done, 1 done but some cases failed, 2 a mistake in what you wrote, 74 a disk that is full or "
-        "fails, 130 interrupted (Ctrl-C), 143 ended from outside (SIGTERM).",
+        epilog="Exit codes: 0 done, 1 done but some cases failed or a requirement is not met, 2 a mistake in what you wrote, "
+        "74 a disk that is full or fails, 130 interrupted (Ctrl-C), 143 ended from outside (SIGTERM).",
     )
     top.add_argument("--version", action="version", version=f"fddbench {__version__}")
     subs = top.add_subparsers(metavar="COMMAND")
 
     run = add(subs, "run", commands.run)
-    run.add_argument(
-        "campaigns", type=Path, nargs="+", metavar="CAMPAIGN.yaml", help="campaign files, or names of shipped ones"
-    )
+    run_arguments(run)
     _set(run)
-    run.add_argument(
-        "--out", type=Path, metavar="DIR", help="folder of results (default: results/<name of the campaign>)"
-    )
-    run.add_argument(
-        "--jobs", type=_jobs, default=2, metavar="N", help="worker processes (default: 2); no part of any result"
-    )
-    run.add_argument("--fresh", action="store_true", help="replace what the folder holds")
-    run.add_argument(
-        "--backend", choices=("auto", "llvm", "numpy"), default="auto",
-        help="compiled where llvmlite is installed (auto), always, or never; no part of any result",
-    )  # fmt: skip
-    run.add_argument("--quiet", action="store_true", help="no progress")
-    run.add_argument("--wide", action="store_true", help="every column of the table, as wide as it is")
+    requiring.arguments(run)
 
     _reading(subs)
     looking_arguments(subs)
     verify_arguments(add(subs, "verify", looking.verify))
     growing_arguments(subs)
+    sharding_arguments(subs, _campaign)
 
     _counting(subs)
     cost = add(subs, "cost", commands.cost)
@@ -83,8 +71,17 @@ def parser() -> argparse.ArgumentParser:
 def _reading(subs) -> None:  # type: ignore[no-untyped-def]
     """Commands that read a folder of results."""
     report = add(subs, "report", commands.report)
-    report.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
-    report.add_argument("--output", type=Path, metavar="FILE", help="page to write (default: DIR/report.html)")
+    report.add_argument(
+        "folders", type=Path, nargs="*", metavar="DIR",
+        help="folder of results (default: the newest under results/); of several their comparison",
+    )  # fmt: skip
+    report.add_argument("--no-replay", action="store_true", help="no signals and no bound: nothing is flown again")
+    report.add_argument(
+        "--output",
+        type=Path,
+        metavar="FILE",
+        help="page to write (default: DIR/report.html; of several comparison.html beside the first)",
+    )
 
     trusting(report)
 
@@ -122,7 +119,7 @@ def _counting(subs) -> None:  # type: ignore[no-untyped-def]
     )  # fmt: skip
     compare.add_argument(
         "--require", action="append", default=[], metavar="MEASURE",
-        help="end with 1 where this got worse: right, wrong_site, false_alarm or detection_time (may be repeated)",
+        help="end with 1 where this got worse: right, wrong_site, false_alarm, detection_time, or stated (may be repeated)",
     )  # fmt: skip
 
 
@@ -136,13 +133,14 @@ def _asking(subs) -> None:  # type: ignore[no-untyped-def]
     init = add(subs, "init", commands.init)
     init.add_argument("folder", type=Path, nargs="?", default=Path(), metavar="DIR", help="where to (default: here)")
     names = (
-        "[--detector NAME | --trained NAME |\n                     --benchmark NAME | --fault NAME | --campaign NAME]"
+        "[--detector NAME | --trained NAME |\n" + " " * 21 + "--benchmark NAME | --fault NAME | --campaign NAME | --ci]"
     )
     init.usage = f"fddbench init [-h] [DIR] {names}"  # argparse does not break a group
     one = init.add_mutually_exclusive_group()
     for what in ("detector", "trained", "benchmark", "fault", "campaign"):
         said = "detector that is trained on labelled flights" if what == "trained" else f"{what} of your own"
         one.add_argument(f"--{what}", metavar="NAME", help=f"a small {said}, and a campaign that flies it")
+    one.add_argument("--ci", action="store_true", help="a workflow of GitHub for the campaigns in DIR")
     schema = add(subs, "schema", commands.schema)
     schema.add_argument("subject", nargs="?", default="", metavar="BENCHMARK", help="name of a benchmark, or designs")
     schema.add_argument("--output", type=Path, metavar="FILE", help="file to write (default: print it)")

@@ -2,7 +2,7 @@
 
 import argparse
 
-__all__ = ["flights", "jobs", "probability", "share"]
+__all__ = ["flights", "jobs", "probability", "runs", "share"]
 
 
 def share(text: str) -> float:
@@ -31,6 +31,13 @@ def flights(text: str) -> int:
     """Number of flights."""
     if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= 10_000:
         raise argparse.ArgumentTypeError(f"need a whole number from 1 to 10000, got {text!r}")
+    return int(text)
+
+
+def runs(text: str) -> int:
+    """Number of Monte-Carlo runs."""
+    if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= 10_000_000:
+        raise argparse.ArgumentTypeError(f"need a whole number from 1 to 10000000, got {text!r}")
     return int(text)
 
 

@@ -2,9 +2,11 @@
 
 import argparse
 import sys
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from fddbench.cli.requiring import all_pass, refuse_unstated, until_decided, write_ci
 from fddbench.errors import FddbenchError
 
 if TYPE_CHECKING:
@@ -12,7 +14,19 @@ if TYPE_CHECKING:
 
     from fddbench.runner.run import RunReport
 
-__all__ = ["bound", "check", "cost", "finding", "init", "list_", "report", "run", "schema", "scores", "told"]
+__all__ = [
+    "bound",
+    "check",
+    "cost",
+    "finding",
+    "init",
+    "list_",
+    "report",
+    "run",
+    "schema",
+    "scores",
+    "told",
+]
 
 
 _INTERRUPTED = 130
@@ -22,12 +36,15 @@ def run(args: argparse.Namespace) -> int:
     """Fly campaigns and write their tables.
 
     Goes on where an earlier run of the same campaign stopped. Ctrl-C stops after saving what is finished. Of several campaigns
-    one with a mistake does not keep the others from flying; the exit code is the worst of theirs.
+    one with a mistake does not keep the others from flying; the exit code is the worst of theirs. What a campaign requires is
+    judged; with --require the run ends with 1 unless all of it is shown to be met; with --until decided more runs are
+    flown until each verdict is pass or fail.
     """
     if len(args.campaigns) == 1:
         return _run(args.campaigns[0], args)
-    if args.out is not None:
-        raise FddbenchError("--out names the folder of one campaign; several go into results/<name of each>")
+    for option, what in (("out", "folder"), ("junit", "verdicts")):
+        if getattr(args, option) is not None:
+            raise FddbenchError(f"--{option} names the {what} of one campaign; several go into results/<name of each>")
     codes: dict[Path, int] = {}
     for path in args.campaigns:
         print(f"== {path}")
@@ -39,7 +56,7 @@ def run(args: argparse.Namespace) -> int:
         if codes[path] == _INTERRUPTED:
             return _INTERRUPTED
         print()
-    words = {0: "done", 1: "done, some flights failed", 2: "not flown, see above"}
+    words = {0: "done", 1: "done, some flights failed or requirements not met", 2: "not flown, see above"}
     width = max(len(str(path)) for path in codes)
     for path, code in codes.items():
         print(f"{path!s:<{width}}  {words[code]}")
@@ -52,41 +69,51 @@ def _run(path: Path, args: argparse.Namespace) -> int:
     from fddbench.cli.progress import shown
 
     campaign = campaigns.read(path, args.overrides)
+    refuse_unstated(campaign, args)
     kept: list[tuple[pd.DataFrame, pd.DataFrame]] = []
     with shown(campaign.name, quiet=args.quiet) as progress:
-        report = campaigns.run(
-            campaign,
-            args.out,
+        fly = until_decided(path, args) if args.until else partial(campaigns.run, campaign)
+        report = fly(
+            folder=args.out,
             jobs=args.jobs,
             fresh=args.fresh,
             backend=args.backend,
+            compiled_as=args.compiled_as,
+            engine=args.engine,
+            address=args.dask_address or args.ray_address,
+            only=args.only,
+            retry_failed=args.retry_failed,
             progress=progress,
             notice=lambda text: print(f"fddbench: {text}", file=sys.stderr),
             summarised=lambda *tables: kept.append(tables),
         )
-    return told(report, kept, wide=args.wide)
+    return told(report, kept, wide=args.wide, require=args.require, junit=args.junit)
 
 
-def told(report: "RunReport", kept: "list[tuple[pd.DataFrame, pd.DataFrame]]", *, wide: bool) -> int:
-    """Print how a run ended and its tables; exit code of the command."""
+def told(
+    report: "RunReport",
+    kept: "list[tuple[pd.DataFrame, pd.DataFrame]]",
+    *,
+    wide: bool,
+    require: bool = False,
+    junit: Path | None = None,
+) -> int:
+    """Print how a run ended, its tables and the verdicts on what its campaign requires; exit code of the command."""
     from fddbench.results.folder import provenance_of
 
     folder = report.folder
     if report.interrupted:
-        done = report.continued + report.flights
-        print(
-            f"fddbench: interrupted; {done} of {report.total} flights are saved in {folder}.\n"
-            "Run the same command again to continue.",
-            file=sys.stderr,
-        )
-        return _INTERRUPTED
-    _summary(folder, kept[0], wide=wide, failed=report.failed_rows > 0)
+        from fddbench.cli.progress import said_of_interrupted
+
+        return said_of_interrupted(report)
+    _summary(folder, kept[-1], wide=wide, failed=report.failed_rows > 0)
+    passed = all_pass(folder, junit=junit, job=require)
     again = f", {report.continued} found done" if report.continued else ""
     print(f"\n{report.flights} flights flown{again} in {report.wall_s:.1f} s; results in {folder}")
     logs: dict[str, str] = provenance_of(folder).get("logs", {})
     print("".join(f"log {name}: {said}\n" for name, said in logs.items()), end="")
     print(f"next: fddbench report {folder}")
-    return 1 if report.failed_rows else 0
+    return 1 if report.failed_rows or (require and not passed) else 0
 
 
 def _summary(folder: Path, tables: "tuple[pd.DataFrame, pd.DataFrame]", *, wide: bool, failed: bool) -> None:
@@ -131,10 +158,13 @@ def _failures(folder: Path) -> None:
 
 
 def report(args: argparse.Namespace) -> int:
-    """Write the page of a folder of results: one HTML file that needs no network."""
+    """Write the page of a folder of results: one HTML file that needs no network.
+
+    Without a folder that of the newest under results/; of several their comparison, flight by flight where they hold the same.
+    """
     from fddbench.api.pages import report as write
 
-    print(write(args.folder, args.output))
+    print(write(args.folders or None, args.output, replay=not args.no_replay))
     return 0
 
 
@@ -184,7 +214,7 @@ def cost(args: argparse.Namespace) -> int:
     """Count what a step of a detector costs: the load on a flight computer.
 
     Operations by kind, multiply-add pairs, bytes of state and tables, and nanoseconds per step and flight in compiled
-    code on this machine.
+    code on this machine; then the same of the exported C, where a compiler is here: code, tables, stack and time-stamp ticks.
     """
     from fddbench.runner.load import detector_load, in_words
     from fddbench.runner.single import assembly_with
@@ -193,6 +223,9 @@ def cost(args: argparse.Namespace) -> int:
     load = detector_load(assembly.detectors[args.detector], assembly.loop.bus)
     print(f"{args.detector}, at {assembly.loop.bus.sample_s} s: {in_words(load)}")
     if load.cost is not None:
+        from fddbench.runner.in_c import in_c_words
+
+        print(in_c_words(args.detector, assembly.detectors[args.detector], assembly.loop.bus))
         for name, number in load.cost.operations.items():
             print(f"  {name:<12}{number:>6}")
     return 0
@@ -224,12 +257,14 @@ def list_(args: argparse.Namespace) -> int:
 def init(args: argparse.Namespace) -> int:
     """Write files to start from: of your own or copies of the shipped ones.
 
-    A detector, one that is trained, a benchmark, a fault or a campaign.
+    A detector, one that is trained, a benchmark, a fault or a campaign. `--benchmark recorded` writes logs and what maps them.
 
-    What is there already is left alone.
+    What is there already is left alone. --ci writes a workflow of GitHub that judges what the campaigns in DIR require.
     """
     from fddbench.api.starting import STARTERS, copy_shipped, start
 
+    if args.ci:
+        return write_ci(args.folder)
     for what in STARTERS:
         name = getattr(args, what)
         if name is not None:

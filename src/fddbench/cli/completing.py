@@ -88,6 +88,7 @@ _COMPLETERS: dict[str, Callable[..., list[str]]] = {
     "design": _designs,
     "detector": _designs,
     "folder": _results,
+    "folders": _results,
     "other": _results,
     "source": _results,
     "subject": _subjects,

@@ -14,14 +14,16 @@ def compare(args: argparse.Namespace) -> int:
     """Compare two folders of results, or two detectors of one, flight by flight.
 
     Shares by McNemar's exact test, detection times by a sign test, both by run and adjusted after Holm. With --require it ends
-    with 1 when that measure got worse in a scenario.
+    with 1 when that measure got worse in a scenario, or, stated, what the campaign of A requires.
     """
     from fddbench.api.comparing import compare as compared
     from fddbench.api.comparing import got_worse
+    from fddbench.api.requiring import stated
     from fddbench.reporting.comparison import comparison_text
 
     found = compared(args.folder, args.other, args.detector)
-    worse = got_worse(found, args.require)
+    own = stated(args.folder) if "stated" in args.require else []
+    worse = got_worse(found, [name for name in args.require if name != "stated"], own)
     print(comparison_text(found))
     if worse.empty:
         return 0

@@ -63,6 +63,9 @@ def growing_arguments(subs) -> None:  # type: ignore[no-untyped-def]
     merge.add_argument("folders", type=Path, nargs="+", metavar="DIR", help="folders of results")
     merge.add_argument("--output", type=Path, required=True, metavar="DIR", help="new folder")
 
+    compact = add(subs, "compact", growing.compact)
+    compact.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
+
 
 def verify_arguments(command: argparse.ArgumentParser) -> None:
     """Arguments of `verify`."""

@@ -6,10 +6,12 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
-from fddbench.runner.run import Progress
+from fddbench.runner.run import Progress, RunReport
 
-__all__ = ["Pace", "shown"]
+__all__ = ["Pace", "said_of_interrupted", "shown"]
 
+_INTERRUPTED = 130
+"""Exit code of what Ctrl-C ended."""
 _EVERY_S = 10.0
 """Time between two plain lines [s]."""
 
@@ -114,3 +116,14 @@ def _failed(progress: Progress) -> str:
     """Rows that are neither scored nor infeasible, in words."""
     failed = sum(n for status, n in progress.statuses.items() if status not in ("ok", "infeasible"))
     return f"{failed} rows failed" if failed else ""
+
+
+def said_of_interrupted(report: RunReport) -> int:
+    """Say what an interrupted run has saved; exit code of the command."""
+    done = report.continued + report.flights
+    print(
+        f"fddbench: interrupted; {done} of {report.total} flights are saved in {report.folder}.\n"
+        "Run the same command again to continue.",
+        file=sys.stderr,
+    )
+    return _INTERRUPTED

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from functools import cached_property
 from types import SimpleNamespace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,6 +15,9 @@ from fddbench.designs.hold import Hold
 from fddbench.designs.tracing import Obstacle, obstacle
 from fddbench.errors import DesignError
 from fddbench.interfaces import Bus, Verdict
+
+if TYPE_CHECKING:
+    from fddbench.designs.design import Design
 
 __all__ = ["Adapted"]
 
@@ -30,12 +33,14 @@ class Adapted:
         What it is fed with.
     every : int
         It steps at every so manieth sample of it, and its decision holds between.
+    design : Design, optional
+        What it was built from, so that it can be built once more in a process of its own.
     """
 
     constants: Layout[Any] = NOTHING
 
-    def __init__(self, detector: Any, bus: Bus, every: int = 1) -> None:
-        self.detector, self.bus, self.every = detector, bus, every
+    def __init__(self, detector: Any, bus: Bus, every: int = 1, design: "Design | None" = None) -> None:
+        self.detector, self.bus, self.every, self.design = detector, bus, every, design
         states = getattr(detector, "states", None)
         self.has_states = isinstance(states, Layout)
         self.own_states: Layout[Any] = states if isinstance(states, Layout) else NOTHING

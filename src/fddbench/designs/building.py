@@ -47,7 +47,7 @@ def build_detectors(designs: Sequence[Design], bus: Bus, samples: Samples | None
 def _unsound(found: dict[str, Adapted], design: Design, built: Detector, bus: Bus, samples: Samples | None) -> str:
     """What is wrong with a detector, "" for nothing; then it is among those found."""
     try:
-        found[design.name] = Adapted(built, bus, design.every)
+        found[design.name] = Adapted(built, bus, design.every, design)
     except BaseException as error:
         raise_interrupt(error)
         return f"it is no detector: {reason_of(error)}"

@@ -14,11 +14,11 @@ from fddbench.campaign.reading.document import Document, refuse
 from fddbench.campaign.reading.yaml_nodes import read_yaml
 from fddbench.campaign.rules.messages import mistakes_of
 from fddbench.campaign.rules.wording import shown
-from fddbench.designs.design_file import DesignFile, TunedOn
+from fddbench.designs.design_file import DesignFile, Limits, TunedOn
 from fddbench.errors import DesignError, FddbenchError, Mistake
 from fddbench.interfaces import Bus, Detector
 from fddbench.kinds import Kind
-from fddbench.plugin_files import noticed_reads
+from fddbench.plugin_files import code_in, noticed_reads
 
 __all__ = ["Design", "SweptGain", "read_design"]
 
@@ -82,6 +82,12 @@ class Design:
         Of a variant, what differs from the file.
     every : int
         It steps at every so manieth sample.
+    code : str
+        Folder of C beside it that flies in its place; "" for none.
+    symbols : str, list or None
+        Library of operations that it must keep to.
+    limits : Limits
+        What a step may take where the detector is ordinary Python.
     """
 
     name: str
@@ -100,6 +106,9 @@ class Design:
     written: Mapping[str, Any] = field(default_factory=dict, repr=False)
     swept: SweptGain | None = None
     every: int = 1
+    code: str = ""
+    symbols: Any = None
+    limits: Limits = field(default_factory=Limits)
 
     @property
     def base(self) -> str:
@@ -156,12 +165,13 @@ def read_design(path: Path, *, where: str = "") -> Design:
         mistakes.append(document.mistake(("kind",), str(error)))
     gains = _gains(document, kind, mistakes)
     members = _members(document, kind, gains, path.parent, mistakes)
+    code = _code(document, written, path.parent, mistakes)
     refuse(mistakes)
     assert written is not None
     assert kind is not None
     assert gains is not None
     text = path.read_text(encoding="utf-8-sig")
-    files = {name: text for each in (kind, *members.values()) for name, text in each.files.items()}
+    files = {name: text for each in (kind, *members.values()) for name, text in each.files.items()} | code
     stands_on = "".join(f"{each}:{text_sha256(content.hex())}" for each, content in sorted(files.items()))
     return Design(
         name=path.stem,
@@ -179,6 +189,9 @@ def read_design(path: Path, *, where: str = "") -> Design:
         members=members,
         written=document.mapping("gains"),
         every=written.every,
+        code=written.code,
+        symbols=written.symbols,
+        limits=written.limits,
     )
 
 
@@ -215,6 +228,17 @@ def _members(
         except FddbenchError as error:
             mistakes.append(document.mistake(("gains", key), str(error)))
     return found
+
+
+def _code(document: Document, written: DesignFile | None, folder: Path, mistakes: list[Mistake]) -> dict[str, bytes]:
+    """Files of C that fly in place of the kind's own step."""
+    if written is None or not written.code:
+        return {}
+    try:
+        return code_in(written.code, folder)
+    except FddbenchError as error:
+        mistakes.append(document.mistake(("code",), str(error)))
+        return {}
 
 
 def _gamma(recipe: Mapping[str, Any] | None) -> float | None:

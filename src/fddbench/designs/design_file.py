@@ -8,7 +8,7 @@ from pydantic import Field
 
 from fddbench.campaign.rules.model import Name, Seed, Strict
 
-__all__ = ["DesignFile", "TunedOn", "design_text"]
+__all__ = ["DesignFile", "Limits", "TunedOn", "design_text"]
 
 MOST_SLOW = 100
 """Samples between two steps of a detector, at most."""
@@ -29,6 +29,21 @@ class TunedOn(Strict):
     seed: Seed
 
 
+class Limits(Strict):
+    """What a detector in ordinary Python may take, in a process of its own; beyond, its row has the status that says so.
+
+    Attributes
+    ----------
+    step_s : float
+        Longest step of a flight [s], by the clock on the wall: a row of status ``timeout``.
+    memory_mb : float
+        Memory that its flights may take beyond what it has when it is built [MB]: ``memory``.
+    """
+
+    step_s: Annotated[float, Field(gt=0.0, le=86_400.0)] = 10.0
+    memory_mb: Annotated[float, Field(ge=1.0, le=1e6)] = 1024.0
+
+
 class DesignFile(Strict):
     """A tuned detector as it is written.
 
@@ -42,6 +57,12 @@ class DesignFile(Strict):
         Flights the numbers were chosen on.
     every : int
         Steps at every so manieth sample and holds its decision between; its times are counted on that slower clock.
+    code : str
+        Folder of C beside the design that flies in its place, with the functions of the exported header; "" for none.
+    symbols : str, list of symbols, or None
+        Library of operations that it must keep to, see `fddbench.exported.symbols`.
+    limits : Limits
+        What a step may take where the detector is ordinary Python.
     recipe : mapping, or None
         What ``fddbench design`` makes the gains from, and what it found.
     gains : mapping
@@ -53,6 +74,9 @@ class DesignFile(Strict):
     source: str
     tuned_on: tuple[TunedOn, ...] | None
     every: Annotated[int, Field(ge=1, le=MOST_SLOW)] = 1
+    code: str = ""
+    symbols: str | list[str | dict[str, Annotated[int, Field(ge=1)]]] | None = None
+    limits: Limits = Limits()
     recipe: dict[str, Any] | None = None
     gains: dict[str, Any]
 

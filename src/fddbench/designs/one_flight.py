@@ -29,9 +29,8 @@ def _column(rows: Floats) -> Sequence[Any]:
     if rows.ndim == 1:
         values: list[float] = rows.tolist()
         return values
-    copied = np.array(rows.T, order="C")
-    copied.flags.writeable = False
-    return list(copied)
+    # on bytes, which nobody can unlock: the others' readings of this sample lie beside one's own
+    return list(np.frombuffer(rows.T.tobytes(), dtype=rows.dtype).reshape(rows.shape[::-1]))
 
 
 class OneFlight:

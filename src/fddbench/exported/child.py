@@ -12,25 +12,26 @@ import numpy.typing as npt
 
 from fddbench.errors import FddbenchError
 
-__all__ = ["Child", "CodeError", "main_text"]
+__all__ = ["IMPATIENT_S", "Child", "CodeError", "HungError", "main_text"]
 
 Bytes = npt.NDArray[np.uint8]
 _MAGIC = 0x0FDDBE4C
-_PATIENCE_S = 60.0
+PATIENCE_S = 20.0
+IMPATIENT_S = 2.0
+"""How long a step of all flights may last [s], and how long once the code has hung."""
+
 
 _MAIN = """\
-/* Steps many flights of {name} at a request: a count, then state and inputs of each; back come state and outputs. */
+/* Steps many flights of {name} at a request: a count, then state and inputs of each; back come state and outputs.
+ * What the code itself prints goes nowhere, and what it reads is empty. */
+#define _POSIX_C_SOURCE 200809L
+
 #include "{name}.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-typedef struct
-{{
-    {name}_state_t state;
-    {name}_inputs_t inputs;
-}} request_t;
+#include <unistd.h>
 
 int main(void)
 {{
@@ -44,12 +45,19 @@ int main(void)
     uint32_t n = 0U;
     size_t in = sizeof({name}_state_t) + sizeof({name}_inputs_t);
     size_t out = sizeof({name}_state_t) + sizeof({name}_outputs_t);
+    FILE *from = fdopen(dup(0), "rb");
+    FILE *to = fdopen(dup(1), "wb");
+    if ((from == NULL) || (to == NULL) || (freopen("/dev/null", "r", stdin) == NULL)
+        || (freopen("/dev/null", "w", stdout) == NULL))
+    {{
+        return 5;
+    }}
     (void)memset(&start, 0, sizeof(start));
     {name}_init(&start);
-    (void)fwrite(sizes, sizeof(sizes), 1, stdout);
-    (void)fwrite(&start, sizeof(start), 1, stdout);
-    (void)fflush(stdout);
-    while (fread(&n, sizeof(n), 1, stdin) == 1U)
+    (void)fwrite(sizes, sizeof(sizes), 1, to);
+    (void)fwrite(&start, sizeof(start), 1, to);
+    (void)fflush(to);
+    while (fread(&n, sizeof(n), 1, from) == 1U)
     {{
         uint32_t k;
         if (n > room)
@@ -61,7 +69,7 @@ int main(void)
             given = malloc(room * out);
             if ((taken == NULL) || (given == NULL)) {{ return 3; }}
         }}
-        if ((n > 0U) && (fread(taken, in, n, stdin) != n)) {{ return 4; }}
+        if ((n > 0U) && (fread(taken, in, n, from) != n)) {{ return 4; }}
         for (k = 0U; k < n; k++)
         {{
             {name}_state_t state;
@@ -74,8 +82,8 @@ int main(void)
             (void)memcpy(given + (k * out), &state, sizeof(state));
             (void)memcpy(given + (k * out) + sizeof(state), &outputs, sizeof(outputs));
         }}
-        (void)fwrite(given, out, n, stdout);
-        (void)fflush(stdout);
+        (void)fwrite(given, out, n, to);
+        (void)fflush(to);
     }}
     return 0;
 }}
@@ -84,6 +92,10 @@ int main(void)
 
 class CodeError(FddbenchError):
     """Foreign code crashed, hung or spoke nonsense."""
+
+
+class HungError(CodeError):
+    """It does not answer."""
 
 
 def main_text(name: str) -> str:
@@ -104,7 +116,7 @@ class Child:
         How long a step of all flights may last [s].
     """
 
-    def __init__(self, program: Path, wrapper: tuple[str, ...] = (), patience_s: float = _PATIENCE_S) -> None:
+    def __init__(self, program: Path, wrapper: tuple[str, ...] = (), patience_s: float = PATIENCE_S) -> None:
         self._patience_s, self._swapped = patience_s, False
         try:
             self._process = subprocess.Popen(
@@ -117,7 +129,7 @@ class Child:
         self._swapped = struct.unpack("=I", head[:4])[0] != _MAGIC
         magic, self.state_size, self.inputs_size, self.outputs_size = struct.unpack(self._order + "4I", head)
         if magic != _MAGIC:
-            raise CodeError("the code writes to its standard output, which belongs to the flight; take its printf out")
+            raise CodeError("the code wrote to its standard output while it was loaded, which belongs to the flight")
         self.start = np.frombuffer(self._read(self.state_size), dtype=np.uint8)
 
     @property
@@ -179,7 +191,7 @@ class Child:
             ready, _, _ = select.select([self._process.stdout], [], [], self._patience_s)
             if not ready:
                 self._process.kill()
-                raise CodeError(f"the code has not answered within {self._patience_s:g} s: a loop without end?")
+                raise HungError("the code does not answer: a loop without end?")
             part = self._process.stdout.read(left)
             if not part:
                 raise self._ended()

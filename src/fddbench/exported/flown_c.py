@@ -66,7 +66,8 @@ class FlownC:
         return self._words(after).T, dict(_members(self.interface.outputs, numbers))
 
     def _words(self, state: npt.NDArray[np.uint8]) -> Floats:
-        return np.ascontiguousarray(np.pad(state, ((0, 0), (0, self._pad)))).view(np.float64)
+        whole = np.pad(state, ((0, 0), (0, self._pad))) if self._pad else state
+        return np.ascontiguousarray(whole).view(np.float64)
 
 
 def _members(members: tuple[Member, ...], numbers: Floats) -> list[tuple[str, Floats]]:

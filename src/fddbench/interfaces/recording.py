@@ -24,7 +24,7 @@ class Recording:
     time_s : (n_time,) array
         Time since the start [s].
     onset_s : (n_cases,) array or None
-        First faulty sample of each [s]; None: healthy flights.
+        First faulty sample of each [s], NaN for a healthy one among others; None: healthy flights.
     signals : mapping of str to (n_time, n_cases) arrays
         Measured and true signals by name with unit; a signal of several rows is numbered from 1 (``r_deg_s_1``).
     detectors : mapping of str to mapping of str to (n_time, n_cases) arrays

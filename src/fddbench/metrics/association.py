@@ -48,10 +48,25 @@ class Parts:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Association:
-    """A parameter, how strongly it goes with failure, and failed flights of each of its parts, with 95 % intervals [-]."""
+    """A parameter and how strongly it goes with failure.
+
+    Attributes
+    ----------
+    name : str
+    v : float
+        Association [-].
+    lower, upper : (n_parts,) arrays
+        Smallest and largest value of each part.
+    failed, flights : (n_parts,) arrays of int
+        Flights of each part that failed, and all.
+    low, high : (n_parts,) arrays
+        Ends of the 95 % interval of the failed share [-], by run.
+    """
 
     name: str
     v: float
+    lower: Floats
+    upper: Floats
     failed: Places
     flights: Places
     low: Floats
@@ -122,7 +137,10 @@ def associations(
     found = []
     for v, name, k, n in strongest:
         low, high = _ends(parts[name].place, failed, runs, len(k))
-        found.append(Association(name=name, v=v, failed=k, flights=n, low=low, high=high))
+        own = parts[name]
+        found.append(
+            Association(name=name, v=v, lower=own.low, upper=own.high, failed=k, flights=n, low=low, high=high)
+        )
     return found
 
 

@@ -27,7 +27,8 @@ from fddbench.metrics.clustered import pooled_intervals
 
 __all__ = ["MOST_TIMES", "Incidence", "incidence"]
 
-MOST_TIMES = 16
+_ENDED = ("right", "late", "wrong_site", "false_alarm")
+MOST_TIMES = 11
 """Times at which a curve is kept; between them it stands at the last one."""
 
 
@@ -93,8 +94,8 @@ def incidence(
     >>> seen.time_s.tolist(), seen.found.tolist(), seen.wrong.tolist(), seen.end_s
     ([0.0, 0.1, 0.2, 0.5], [0, 1, 1, 2], [0, 0, 1, 1], 10.0)
     """
-    right = np.isin(outcome.astype(str), ("right", "late"))
-    wrong, alarmed = outcome == "wrong_site", outcome == "false_alarm"
+    right, late, wrong, alarmed = (np.asarray(outcome == name, dtype=bool) for name in _ENDED)
+    right |= late
     found_at = np.where(right, found_s, np.inf)
     wrong_at = np.where(wrong, wrong_s, np.inf)
     open_still = ~(right | wrong | alarmed)

@@ -1,5 +1,6 @@
 """From score states at the end of a flight to the columns of rows and events."""
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
@@ -21,13 +22,14 @@ Columns = dict[str, pa.Array]
 Cases = npt.NDArray[np.int64]
 Booleans = npt.NDArray[np.bool_]
 
+_ENDED = re.compile(r"(?:given up: on each of the first \d+ flights )?(memory|timeout|crashed): ")
 _NONFINITE = "the detector's residual or estimate is not a finite number, or its verdict not 0 or 1"
 
 
 def statuses(
     scoring: Scoring, score: Floats, *, infeasible: Sequence[str], errors: Sequence[str]
 ) -> tuple[list[str], list[str | None]]:
-    """Status and reason of every case; of several the first in this order: infeasible, error, nonfinite."""
+    """Status and reason of every case; of several the first in this order: infeasible, error or its like, nonfinite."""
     nonfinite = scoring.states.unpack(score).nonfinite > 0.0
     status: list[str] = ["ok"] * score.shape[1]
     reason: list[str | None] = [None] * score.shape[1]
@@ -36,10 +38,16 @@ def statuses(
         if infeasible[i]:
             status[i], reason[i] = "infeasible", infeasible[i]
         elif errors[i]:
-            status[i], reason[i] = "error", errors[i]
+            status[i], reason[i] = _status_of(errors[i]), errors[i]
         else:
             status[i], reason[i] = "nonfinite", _NONFINITE
     return status, reason
+
+
+def _status_of(reason: str) -> str:
+    """Status of a row whose detector did not come to an end; the reason opens with it, unless it is an error."""
+    found = _ENDED.match(reason)
+    return found[1] if found else "error"
 
 
 def score_columns(

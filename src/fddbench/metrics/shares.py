@@ -52,8 +52,12 @@ def flown_of(rows: pd.DataFrame) -> pd.DataFrame:
 
 def decided(flown: pd.DataFrame) -> npt.NDArray[np.bool_]:
     """Which flown flights have been decided, (n_rows,): only these have a part in shares of outcomes."""
-    outcome = np.asarray(flown["outcome"], dtype=object)
-    return np.array([isinstance(name, str) and name != "undecided" for name in outcome], dtype=bool)
+    outcome = flown["outcome"]
+    if isinstance(outcome.dtype, pd.ArrowDtype):  # a million rows at once
+        return np.asarray((outcome != "undecided").fillna(value=False), dtype=bool)
+    return np.array(
+        [isinstance(name, str) and name != "undecided" for name in np.asarray(outcome, dtype=object)], dtype=bool
+    )
 
 
 def pools(rows: pd.DataFrame, *columns: str) -> str | None:

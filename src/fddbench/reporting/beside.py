@@ -1,10 +1,12 @@
 """Our results beside a printed table: outcomes, and detection times in samples and as shares of the limit."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import pandas as pd
 
+from fddbench.reporting.conditions import differences
 from fddbench.reporting.formats import DASH, count, present, signed
 from fddbench.reporting.published import Published, PublishedRow
 from fddbench.reporting.tables import Cell
@@ -24,32 +26,56 @@ Line = dict[Any, Any]
 
 @dataclass(frozen=True, kw_only=True)
 class Beside:
-    """A printed table, the groups of its columns by their heads, and lines of cells: ours, then three cells a group."""
+    """A printed table, the groups of its columns by their heads, lines of cells (ours, then three a group), and what is apart.
+
+    `apart` are scenarios that are in print but were flown under other conditions, with what differs in words.
+    """
 
     table: Published
     groups: tuple[str, ...]
     lines: list[list[Cell]]
+    apart: tuple[tuple[str, str], ...] = ()
 
 
-def beside(summary: pd.DataFrame, table: Published) -> Beside | None:
-    """Lines of the scenarios that are in print, None without one.
+def beside(summary: pd.DataFrame, table: Published, campaign: Mapping[str, Any] | None = None) -> Beside | None:
+    """Lines of the scenarios that are in print and were flown under the same conditions, None where none is in print.
 
     A scenario whose name says which printed row it is stands beside that row alone; others, ``jam_a``, beside all variants.
     """
     named = table.named(set(summary["scenario"]))
     printed = {row.scenario for row in table.rows if row.detection_time_samples is not None}
-    loose = [line for line in summary.to_dict("records") if line["scenario"] in printed]
+    every = summary.to_dict("records")
+    loose = [line for line in every if line["scenario"] in printed]
     if loose:
-        groups = tuple(table.variants.values())
-        healthy = [line for line in summary.to_dict("records") if line["scenario"] in named and line["healthy"]]
-        lines = [_line(line, table, [named[line["scenario"]]] * len(groups)) for line in healthy]
-        lines += [_line(line, table, [table.row(name, line["scenario"]) for name in table.variants]) for line in loose]
-        return Beside(table=table, groups=groups, lines=lines)
-    ours = [line for line in summary.to_dict("records") if line["scenario"] in named]
+        groups, ours = (
+            tuple(table.variants),
+            [line for line in every if line["scenario"] in named and line["healthy"]] + loose,
+        )
+    else:
+        groups, ours = ("in print",), [line for line in every if line["scenario"] in named]
     if not ours:
         return None
-    lines = [_line(line, table, [named[line["scenario"]]]) for line in ours]
-    return Beside(table=table, groups=("in print",), lines=lines)
+    lines, apart = [], {}
+    for line in ours:
+        rows: list[PublishedRow | None] = (
+            [named[line["scenario"]]] if not loose else _rows_of(line, table, named, groups)
+        )
+        differ = next((d for row in rows if row and (d := differences(campaign or {}, line, row))), [])
+        if differ:
+            apart[str(line["scenario"])] = ", ".join(differ)
+        else:
+            lines.append(_line(line, table, rows))
+    heads = tuple(table.variants[name] for name in groups) if loose else groups
+    return Beside(table=table, groups=heads, lines=lines, apart=tuple(apart.items()))
+
+
+def _rows_of(
+    line: Line, table: Published, named: Mapping[str, PublishedRow], groups: Sequence[str]
+) -> list[PublishedRow | None]:
+    """Printed row of each variant."""
+    if line["healthy"] and line["scenario"] in named:
+        return [named[line["scenario"]]] * len(groups)
+    return [table.row(name, line["scenario"]) for name in groups]
 
 
 def _line(line: Line, table: Published, rows: list[PublishedRow | None]) -> list[Cell]:

@@ -1,12 +1,36 @@
-"""A comparison as plain text for a terminal."""
+"""A comparison as plain text for a terminal, and as cells of a page."""
 
 from typing import Any
 
 import pandas as pd
 
-from fddbench.reporting.formats import DASH, interval, present, signed
+from fddbench.reporting.formats import DASH, count, interval, present, signed
+from fddbench.reporting.tables import Cell
 
-__all__ = ["comparison_text"]
+__all__ = ["comparison_cells", "comparison_text"]
+
+
+def comparison_cells(table: pd.DataFrame) -> tuple[list[list[Cell]], str]:
+    """Cells of what differs, and how many lines do not; of a page."""
+    lines = table.to_dict("records")
+    differ = [line for line in lines if line["difference"]]
+    cells = [_cells(line) for line in differ]
+    return cells, f"{len(lines) - len(differ)} of {len(lines)} comparisons show no difference."
+
+
+def _cells(line: dict[Any, Any]) -> list[Cell]:
+    names = (str(line["scenario"]), _who(line), str(line["measure"]).replace("_", " "))
+    said = _verdict(line)
+    return [
+        *(Cell(text) for text in (*names, _number(line["a"]), _number(line["b"]))),
+        Cell(_difference(line), f"{count(line['pairs'])} flights"),
+        Cell(_p(line["p_holm"])),
+        Cell(said, alarm=said == "worse"),
+    ]
+
+
+def _verdict(line: dict[Any, Any]) -> str:
+    return str(line["verdict"]) if present(line["verdict"]) else "chance explains it"
 
 
 def comparison_text(table: pd.DataFrame) -> str:

@@ -39,11 +39,11 @@ def window(recording: Recording) -> tuple[int, int]:
     time_s, n_time = recording.time_s, len(recording.time_s)
     if recording.onset_s is None:
         return 0, n_time
-    onset = float(np.min(recording.onset_s))
+    onset = float(np.nanmin(recording.onset_s))
     changes = [_changes(of["n_declared"]) for of in recording.detectors.values()]
     last = max(
         (float(time_s[change[-1] + 1]) for change in changes if len(change)),
-        default=float(np.max(recording.onset_s)) + 3.0,
+        default=float(np.nanmax(recording.onset_s)) + 3.0,
     )
     last = max(last, onset) + max(0.4, 0.2 * (last - onset))
     return int(np.searchsorted(time_s, onset - 1.0)), int(np.searchsorted(time_s, last, side="right"))

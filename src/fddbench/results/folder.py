@@ -161,13 +161,12 @@ def _write(folder: Path, provenance: Mapping[str, Any]) -> None:
 
 
 def _put_back(folder: Path, there: Mapping[str, Any], files: Mapping[str, bytes]) -> None:
-    """Write the frozen files that are missing or not as they were."""
+    """Write the frozen files that are missing or not as they were, and a campaign that says the same in other words."""
     for name, content in files.items():
-        listed = _frozen(there).get(name)
-        if file_sha256(folder / name) != listed:
+        listed, digest = _frozen(there).get(name), sha256(content).hexdigest()
+        if file_sha256(folder / name) != listed or (name == _YAML and digest != listed):
             write_bytes(folder / name, content)
-            digest = sha256(content).hexdigest()
-            if digest != listed and name == _YAML:  # the same campaign in other words
+            if digest != listed and name == _YAML:  # about, report and requirements decide no row
                 _write(folder, dict(there) | {"campaign_yaml_sha256": digest})
 
 

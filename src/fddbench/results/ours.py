@@ -11,7 +11,11 @@ from fddbench.results.manifest import survey
 
 __all__ = ["RESERVED", "clear", "refuse_foreign", "sweep"]
 
-_FIXED = ("campaign.yaml", "manifest.jsonl", "report.html", "summary.parquet", "provenance.json", ".lock", ".pid")
+_JUDGED = "requirements.junit.xml"
+_FIXED = (
+    *("campaign.yaml", "manifest.jsonl", "report.html", "summary.parquet", _JUDGED),
+    *("provenance.json", ".lock", ".pid", ".token"),
+)
 RESERVED = frozenset({*_FIXED, "rows", "events"})
 """Names in a folder of results that no file beside a campaign can have when it travels there."""
 _SHARD = re.compile(r"(rows|events)/[0-9-]+\.parquet")
@@ -91,6 +95,7 @@ def clear(folder: Path, carried: Collection[str]) -> None:
         "campaign.yaml",
         "report.html",
         "summary.parquet",
+        _JUDGED,
     ):
         path = folder / name
         if path.is_dir() and not path.is_symlink():
@@ -141,5 +146,7 @@ def _is_listed(folder: Path) -> bool:
 def _is_blank(folder: Path, names: Collection[str]) -> bool:
     """Whether nothing is in a folder but what the first moments of a run leave there."""
     manifest = folder / "manifest.jsonl"
-    begun = {".lock", ".pid"} | ({"manifest.jsonl"} if manifest.is_file() and not manifest.stat().st_size else set())
+    begun = {".lock", ".pid", ".token"} | (
+        {"manifest.jsonl"} if manifest.is_file() and not manifest.stat().st_size else set()
+    )
     return all(name in begun or _LEFT.fullmatch(name) for name in names)

@@ -7,10 +7,12 @@ import pyarrow as pa
 from fddbench.interfaces import Consequence
 from fddbench.units import unit_of_name
 
-__all__ = ["CASE", "EVENTS", "OUTCOMES", "SCHEMA_VERSION", "STATUSES", "rows_schema"]
+__all__ = ["CASE", "EVENTS", "FAILED", "OUTCOMES", "SCHEMA_VERSION", "STATUSES", "rows_schema"]
 
 SCHEMA_VERSION = "2"
 STATUSES = ("ok", "infeasible", "error", "nonfinite", "memory", "timeout", "crashed")
+FAILED = frozenset(STATUSES[2:])
+"""Statuses of rows that should have been scored."""
 OUTCOMES = ("false_alarm", "wrong_site", "right", "late", "missed", "undecided")
 """Of a faulty flight, the first that holds; a healthy one is quiet or false_alarm."""
 

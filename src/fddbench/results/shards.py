@@ -6,7 +6,7 @@ Every shard carries the fingerprint of what flew it and the version of its schem
 import errno
 import hashlib
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from pathlib import Path
 
@@ -16,9 +16,11 @@ import pyarrow.parquet as pq
 from fddbench.errors import ResultsError
 from fddbench.results.schema import SCHEMA_VERSION
 
-__all__ = ["file_sha256", "is_durable", "open_table", "read_columns", "write_bytes", "write_table"]
+__all__ = ["file_sha256", "is_durable", "open_table", "read_columns", "write_bytes", "write_table", "write_tables"]
 
 _SCHEMA, _FINGERPRINT = b"fddbench_schema", b"fddbench_fingerprint"
+_GROUP = 100_000
+"""Rows that are read together of a file of many."""
 _NO_SYNC = {errno.EINVAL, errno.EBADF, errno.ENOTSUP, errno.EOPNOTSUPP, errno.ENOSYS, errno.EACCES, errno.EPERM}
 """What systems answer that cannot make a rename durable; the file itself has been."""
 
@@ -51,14 +53,55 @@ def write_table(path: Path, table: pa.Table, *, fingerprint: str) -> str:
     ResultsError
         The file would lie behind a link.
     """
-    if path.parent.is_symlink():
-        raise ResultsError(f"{path.parent} is a link; results are not written through one. Remove it and run again")
+    _refuse_link(path)
     sink = pa.BufferOutputStream()
     carried = {**(table.schema.metadata or {}), _FINGERPRINT: fingerprint.encode()}
     pq.write_table(table.replace_schema_metadata(carried), sink, compression="zstd", write_page_checksum=True)
     data = sink.getvalue().to_pybytes()
     write_bytes(path, data)
     return hashlib.sha256(data).hexdigest()
+
+
+def _refuse_link(path: Path) -> None:
+    if path.parent.is_symlink():
+        raise ResultsError(f"{path.parent} is a link; results are not written through one. Remove it and run again")
+
+
+def write_tables(path: Path, tables: Iterable[pa.Table]) -> str:
+    """Write tables of shards, with what they carry, one after the other into one; the file's sha256.
+
+    Few rows are in memory at a time, beside the file itself; they stand in groups that can be read one by one.
+
+    Raises
+    ------
+    ResultsError
+        The file would lie behind a link, or the tables have different columns.
+    """
+    _refuse_link(path)
+    sink, writer, waiting = pa.BufferOutputStream(), None, list[pa.Table]()
+    for table in tables:
+        if waiting and table.schema != waiting[0].schema:
+            raise ResultsError(
+                f"{path.parent}: shards of one campaign have different columns; fly it anew with --fresh"
+            )
+        waiting.append(table)
+        writer = writer or pq.ParquetWriter(sink, table.schema, compression="zstd", write_page_checksum=True)
+        if sum(map(len, waiting)) >= _GROUP:
+            waiting = [_written(writer, waiting)]
+    if writer is not None:
+        if sum(map(len, waiting)):
+            _written(writer, waiting)
+        writer.close()
+    data = sink.getvalue().to_pybytes()
+    write_bytes(path, data)
+    return hashlib.sha256(data).hexdigest()
+
+
+def _written(writer: pq.ParquetWriter, tables: list[pa.Table]) -> pa.Table:
+    """Write tables as one group of rows; no rows of the same schema."""
+    whole = pa.concat_tables(tables).combine_chunks()  # the bytes do not say how it was cut
+    writer.write_table(whole, row_group_size=len(whole))
+    return whole.slice(0, 0)
 
 
 def open_table(path: Path, sha256: str, *, schema: pa.Schema, fingerprint: str) -> pq.ParquetFile:
@@ -90,8 +133,8 @@ def open_table(path: Path, sha256: str, *, schema: pa.Schema, fingerprint: str) 
     return found
 
 
-def read_columns(path: Path, opened: pq.ParquetFile, columns: Sequence[str]) -> pa.Table:
-    """Some columns of the table of a shard.
+def read_columns(path: Path, opened: pq.ParquetFile, columns: Sequence[str], group: int | None = None) -> pa.Table:
+    """Some columns of the table of a shard, of one of its groups of rows or of all.
 
     Raises
     ------
@@ -102,6 +145,8 @@ def read_columns(path: Path, opened: pq.ParquetFile, columns: Sequence[str]) -> 
     if missing:
         raise ResultsError(f"{path} has no column {missing[0]!r}; it has {', '.join(opened.schema_arrow.names)}")
     try:
+        if group is not None:
+            return opened.read_row_group(group, columns=list(columns), use_threads=False)
         return opened.read(columns=list(columns), use_threads=False)
     except (pa.ArrowException, OSError) as error:
         raise _no_table(path, error) from error

@@ -12,6 +12,7 @@ import pyarrow as pa
 import pyarrow.compute as pc
 
 from fddbench.errors import PartialResultsWarning, ResultsError, warn
+from fddbench.results.filters import Condition, Filter, filter_of, require_columns
 from fddbench.results.folder import provenance_of
 from fddbench.results.manifest import shards
 from fddbench.results.schema import CASE, EVENTS, rows_schema
@@ -22,12 +23,14 @@ from fddbench.results.whole import holdings
 __all__ = [
     "as_of_today",
     "column_names",
+    "files",
     "load",
     "load_events",
     "named",
     "read_events",
     "read_in_parts",
     "read_rows",
+    "warn_if_partial",
 ]
 
 _MANY = 50_000  # rows: about 10 MB of what a summary needs
@@ -37,7 +40,9 @@ _KEYS = (*_ADDRESS, "detector", "event")
 """Columns that sort a table that has them."""
 
 
-def load(folder: str | Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
+def load(
+    folder: str | Path, columns: Sequence[str] | None = None, filters: Sequence[Condition] | None = None
+) -> pd.DataFrame:
     """Rows of a campaign, one per case and detector, in the order of cases and of the campaign's detectors.
 
     Arrow-backed, so that null stays null; the columns explain themselves in ``fddbench.results.schema`` and in
@@ -49,6 +54,10 @@ def load(folder: str | Path, columns: Sequence[str] | None = None) -> pd.DataFra
         Folder of results.
     columns : sequence of str, optional
         Only these; a large campaign then takes a fraction of the memory.
+    filters : sequence of (column, operator, value), optional
+        Only rows that meet all of these, ``[("detector", "in", ["glr", "cusum"]), ("p_mass_kg", "<", 190e3)]``; operators are
+        ``= == != < <= > >= in``, ``not in``; null meets none but ``("detection_time_s", "=", None)``. The rows that do not
+        meet them are never together in memory.
 
     Warns
     -----
@@ -58,10 +67,10 @@ def load(folder: str | Path, columns: Sequence[str] | None = None) -> pd.DataFra
     Raises
     ------
     ResultsError
-        No folder of results, one whose list or shard is damaged, or one of another schema.
+        No folder of results, one whose list or shard is damaged, one of another schema, or a filter that is none.
     """
-    rows = read_rows(Path(folder), columns)
-    _warn(Path(folder))
+    rows = read_rows(Path(folder), columns, filters)
+    warn_if_partial(Path(folder))
     return rows
 
 
@@ -71,11 +80,13 @@ def load_events(folder: str | Path) -> pd.DataFrame:
     Warns and raises as `load`.
     """
     events = read_events(Path(folder))
-    _warn(Path(folder))
+    warn_if_partial(Path(folder))
     return events
 
 
-def read_rows(folder: Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
+def read_rows(
+    folder: Path, columns: Sequence[str] | None = None, filters: Sequence[Condition] | None = None
+) -> pd.DataFrame:
     """Rows as of `load`, for those who say themselves whether they are all.
 
     Raises
@@ -83,7 +94,11 @@ def read_rows(folder: Path, columns: Sequence[str] | None = None) -> pd.DataFram
     ResultsError
         As `load`.
     """
-    return _sorted(folder, "rows", columns)
+    known = column_names(folder)
+    if columns is not None and known:
+        require_columns(columns, known)
+    chosen = filter_of(filters, known)
+    return _sorted(folder, "rows", columns, chosen)
 
 
 def column_names(folder: Path) -> list[str]:
@@ -91,7 +106,7 @@ def column_names(folder: Path) -> list[str]:
     known = provenance_of(folder).get("columns")
     if known:
         return [CASE.name, *known]
-    for path, sha256, fingerprint in _files(folder, "rows"):
+    for path, sha256, fingerprint in files(folder, "rows"):
         own = open_table(path, sha256, schema=rows_schema(()), fingerprint=fingerprint)
         return [CASE.name, *own.schema_arrow.names]
     return []
@@ -109,18 +124,18 @@ def read_in_parts(folder: Path, columns: Sequence[str]) -> Iterator[pd.DataFrame
         yield _sorted(folder, "rows", columns)
         return
     for detector in provenance_of(folder)["designs_sha256"]:
-        yield _sorted(folder, "rows", columns, detector)
+        yield _sorted(folder, "rows", columns, filter_of([("detector", "=", detector)], ["detector"]))
 
 
-def read_events(folder: Path) -> pd.DataFrame:
-    """Events as of `load_events`, for those who say themselves whether they are all.
+def read_events(folder: Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
+    """Events as of `load_events`, for those who say themselves whether they are all; only some columns.
 
     Raises
     ------
     ResultsError
         As `load`.
     """
-    return _sorted(folder, "events")
+    return _sorted(folder, "events", columns)
 
 
 def named(table: pa.Table) -> pa.Table:
@@ -129,7 +144,8 @@ def named(table: pa.Table) -> pa.Table:
     return table.add_column(0, CASE, pc.binary_join_element_wise(*parts, "/"))
 
 
-def _warn(folder: Path) -> None:
+def warn_if_partial(folder: Path) -> None:
+    """Warn where a folder does not hold all flights of its campaign."""
     found = holdings(folder)
     if found.partial:
         warn(
@@ -138,12 +154,10 @@ def _warn(folder: Path) -> None:
         )
 
 
-def _sorted(
-    folder: Path, which: str, columns: Sequence[str] | None = None, detector: str | None = None
-) -> pd.DataFrame:
-    """Table sorted by scenario, point, level, run, detector and event, of one detector or of all."""
+def _sorted(folder: Path, which: str, columns: Sequence[str] | None = None, only: Filter | None = None) -> pd.DataFrame:
+    """Table sorted by scenario, point, level, run, detector and event, of some rows or of all."""
     wanted = None if columns is None else sorted({*columns, *_ADDRESS} - {CASE.name})
-    table = _read(folder, which, wanted, detector)
+    table = _read(folder, which, wanted, only)
     names = table.column_names if wanted is None else wanted
     left = dict(zip(table.column_names, table.columns, strict=True))
     fields = {field.name: field for field in table.schema}
@@ -169,8 +183,8 @@ def _places(folder: Path, keys: Mapping[str, pa.ChunkedArray]) -> pa.Array:
     return pc.sort_indices(pa.table(by), sort_keys=[(name, "ascending") for name in by])
 
 
-def _read(folder: Path, which: str, wanted: Sequence[str] | None, detector: str | None) -> pa.Table:
-    """Columns of all shards, those that sort among them, one shard after the other; of one detector or of all.
+def _read(folder: Path, which: str, wanted: Sequence[str] | None, chosen: Filter | None) -> pa.Table:
+    """Columns of all shards, those that sort among them, one shard after the other; of some rows or of all.
 
     Raises
     ------
@@ -181,22 +195,32 @@ def _read(folder: Path, which: str, wanted: Sequence[str] | None, detector: str 
     provenance = provenance_of(folder)
     numbering, all_names = Numbering(provenance), provenance.get("columns") if which == "rows" else None
     tables = []
-    for path, sha256, fingerprint in _files(folder, which):
+    for path, sha256, fingerprint in files(folder, which):
         file = open_table(path, sha256, schema=schema, fingerprint=fingerprint)
         all_names = all_names or file.schema_arrow.names
         own = set(file.schema_arrow.names)
         if own - set(all_names) or (own != set(all_names) and "columns" not in provenance):
             raise _different(folder)
-        names = all_names if wanted is None else [*dict.fromkeys((*wanted, *_keys_in(all_names)))]
-        table = read_columns(path, file, [name for name in names if name in own or name not in all_names])
-        table = as_of_today(table.replace_schema_metadata(None), names, numbering.points_of(fingerprint))
-        tables.append(table if detector is None else table.filter(pc.equal(table["detector"], detector)))
+        asked = [name for name in (chosen.names if chosen else ()) if name != CASE.name]
+        names = all_names if wanted is None else [*dict.fromkeys((*wanted, *asked, *_keys_in(all_names)))]
+        there, points = [n for n in names if n in own or n not in all_names], numbering.points_of(fingerprint)
+        for group in range(file.num_row_groups) if chosen else (None,):
+            table = read_columns(path, file, there, group).replace_schema_metadata(None)
+            table = as_of_today(table, names, points)
+            tables.append(_chosen(table, chosen) if chosen else table)
     if not tables and which == "rows":
         raise ResultsError(f"{folder} holds no rows yet; run the campaign first")
     try:
         return pa.concat_tables(tables or [EVENTS.empty_table()])
     except pa.ArrowException as error:
         raise _different(folder) from error
+
+
+def _chosen(table: pa.Table, chosen: Filter) -> pa.Table:
+    """Rows that meet conditions, perhaps on the names of flights."""
+    if CASE.name in chosen.names:
+        return chosen.rows_of(named(table)).drop_columns([CASE.name])
+    return chosen.rows_of(table)
 
 
 def as_of_today(table: pa.Table, names: Sequence[str], points: npt.NDArray[np.int64] | None) -> pa.Table:
@@ -219,7 +243,7 @@ def _different(folder: Path) -> ResultsError:
     return ResultsError(f"the shards of {folder} have different columns; fly the campaign anew with --fresh")
 
 
-def _files(folder: Path, which: str) -> Iterator[tuple[Path, str, str]]:
+def files(folder: Path, which: str) -> Iterator[tuple[Path, str, str]]:
     """File, sha256 and fingerprint of each shard that has such a table."""
     listed = provenance_of(folder)["fingerprints"]
     for shard in shards(folder):

@@ -26,7 +26,7 @@ def code_digest(files: Mapping[str, str]) -> str:
     >>> code_digest({"campaign.yaml": "ab", "detectors/own.yaml": "cd"})
     ''
     """
-    if not any(name.endswith(".py") for name in files):
+    if not any(name.endswith((".py", ".c")) for name in files):
         return ""
     carried = sorted(f"{name} {digest}" for name, digest in files.items() if not name.endswith(_DATA))
     return sha256("\n".join(carried).encode()).hexdigest()

@@ -20,7 +20,7 @@ _MOST = 4
 
 @dataclass(frozen=True, kw_only=True)
 class Holdings:
-    """Flights that a folder holds, and that it is to hold, by scenario.
+    """Flights that a folder holds, and that it is to hold, by scenario; and how many it has of some of the detectors only.
 
     >>> Holdings(held={"healthy": 250, "jam": 0}, total={"healthy": 3000, "jam": 3000}).sentence
     '250 of 6000 flights: healthy 250 of 3000, jam 0 of 3000'
@@ -28,6 +28,7 @@ class Holdings:
 
     held: Mapping[str, int]
     total: Mapping[str, int]
+    partly: int = 0
 
     @property
     def partial(self) -> bool:
@@ -40,7 +41,8 @@ class Holdings:
         short = [f"{name} {n} of {self.total[name]}" for name, n in self.held.items() if n != self.total[name]]
         more = f", and {len(short) - _MOST} more scenarios" if len(short) > _MOST else ""
         where = f": {', '.join(short[:_MOST])}{more}" if short else ""
-        return f"{sum(self.held.values())} of {sum(self.total.values())} flights{where}"
+        some = f"; {self.partly} more of some detectors only" if self.partly else ""
+        return f"{sum(self.held.values())} of {sum(self.total.values())} flights{where}{some}"
 
 
 def holdings(folder: Path) -> Holdings:
@@ -76,7 +78,7 @@ def counted(provenance: Mapping[str, Any], listed: tuple[Shard, ...], folder: Pa
     for name, n in numbering.flights.items():
         held[name] = int(there[first : first + n].sum())
         first += n
-    return Holdings(held=held, total=numbering.flights)
+    return Holdings(held=held, total=numbering.flights, partly=int((rows == 1).any(axis=0).sum() - there.sum()))
 
 
 def require_whole(folder: Path) -> None:

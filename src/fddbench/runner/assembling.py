@@ -14,6 +14,7 @@ from fddbench.metrics.scoring import Scoring
 from fddbench.plugin_files import noticed_reads
 from fddbench.runner.assembly import Assembly
 from fddbench.runner.firsts import first_samples
+from fddbench.runner.in_c import code_of_design, require_allowed
 from fddbench.runner.reconfiguration import require_able, require_commander
 from fddbench.runner.soundness import require_sound
 
@@ -79,6 +80,8 @@ def assemble(campaign: Campaign) -> Assembly:
     if any(map(_foreign, (campaign.bench, campaign.plant, loop, *campaign.chosen.values(), *faults))):
         require_sound(assembly)
     found = build_detectors(campaign.designs, loop.bus, lambda: first_samples(assembly))
+    require_allowed(campaign, found, loop.bus)
+    found = {design.name: code_of_design(design, found[design.name], loop.bus) for design in campaign.designs}
     require_commander(campaign, found)
     return replace(assembly, detectors=found)
 

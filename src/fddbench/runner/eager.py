@@ -1,23 +1,31 @@
 """Flying with NumPy, sample by sample, all cases side by side: the reference, and the way of detectors that are opaque."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from fddbench.blocks.layout import Nothing, Rows
 from fddbench.designs.adapted import Adapted
 from fddbench.interfaces import NEVER, Floats, Sample, Verdict
 from fddbench.runner.assembly import Assembly, Batch
 from fddbench.runner.fused import shown
+from fddbench.runner.lasting import ConsequenceFlight
 from fddbench.runner.reconfiguration import acted_on, nothing_declared, without_commander
-from fddbench.runner.verdicts import verdicts_of
+from fddbench.runner.supervised.verdicts import Supervised, supervisable
+from fddbench.runner.verdicts import Verdicts, verdicts_of
 
 __all__ = ["DetectorFlight", "feed_eagerly", "flown_only", "fly_eagerly"]
 
 _TILE = 50
 """Samples whose random numbers are drawn together; no part of any result."""
+_TOGETHER = 2
+"""How often flights fly again together after a process of theirs has ended, before each flies alone; no part of any result."""
+
+
+Cases = npt.NDArray[np.int64]
+Feed = Callable[[Batch, "Sequence[DetectorFlight]"], None]
 
 
 class DetectorFlight:
@@ -39,6 +47,10 @@ class DetectorFlight:
     alone : bool
         Whether a case flown alone here is the last word. Signals recorded from compiled flights show not-a-number after a
         departure, so what raises on them is flown again.
+    feed : callable, optional
+        Flies a batch once more and shows it to such flights, until all of them have raised; with NumPy by default.
+    tried : int
+        How often flights of this company were lost with a process that ended.
     hear : bool
         Whether every verdict is kept in `heard`, (n, n_cases) rows called `names` a sample; not-a-number where a flight has
         raised.
@@ -57,6 +69,8 @@ class DetectorFlight:
         recorded: Sequence[str] = (),
         *,
         alone: bool = True,
+        feed: Feed | None = None,
+        tried: int = 0,
         hear: bool = False,
     ) -> None:
         self.assembly, self.name, self.batch = assembly, name, batch
@@ -64,12 +78,13 @@ class DetectorFlight:
         self.constants = self.scoring.constants.unpack(batch.score_constants)
         self.score = self.scoring.states.spread(self.scoring.start(self.constants), n_cases)
         self.kept: dict[str, list[Floats]] = {full: [] for full in recorded if full.startswith(f"{name}:")}
-        self.verdicts = verdicts_of(self.detector, n_cases)
+        self.feed, self.tried, self.again = feed or self._feed, tried, list[tuple[Cases, DetectorFlight]]()
         self.hear, self.heard = hear, list[Floats]()
         self.names = _names(self.detector)
         # one that commands is never flown again without the others, who have seen what it made of their flight
         self.commands = name == assembly.commander
         self.last_word = self.detector.one_by_one or self.commands or (n_cases == 1 and alone)
+        self.verdicts: Verdicts = self._verdicts(n_cases)
         self.declared = nothing_declared(assembly, n_cases)
 
     @property
@@ -103,27 +118,52 @@ class DetectorFlight:
         for full, kept in self.kept.items():
             kept.append(np.where(flying, np.asarray(shows[full.split(":", 1)[1]], dtype=float), np.nan))
 
-    def _drawn(self, sample: int) -> Any:
-        """Random numbers of the detector at a sample, by name."""
+    def _verdicts(self, n_cases: int) -> Verdicts:
+        """How it comes to verdicts: in a process of its own what is somebody's ordinary Python."""
+        if supervisable(self.detector):
+            return Supervised(self.detector, n_cases, last=self.commands)
+        return verdicts_of(self.detector, n_cases)
+
+    def _feed(self, batch: Batch, flights: "Sequence[DetectorFlight]") -> None:
+        feed_eagerly(self.assembly, batch, flights, until_over=True)
+
+    def _drawn(self, sample: int) -> Floats:
+        """Random numbers of the detector at a sample."""
         draws = self.detector.draws
         if not draws.streams:
-            return Nothing()
-        return draws.unpack(self.assembly.normals(draws, self.batch, sample, 1)[0])
+            return np.zeros((0, len(self.batch.cases)))
+        drawn: Floats = self.assembly.normals(draws, self.batch, sample, 1)[0]
+        return drawn
 
     def finish(self) -> tuple[Floats, list[str]]:
         """Final score, (n_score, n_cases), and what was raised for each case ("": nothing)."""
         n_cases, raised = len(self.batch.cases), self.verdicts.raised
+        score, errors = self.scoring.states.pack(self.score, n_cases), [each[0] if each else "" for each in raised]
+        if isinstance(self.verdicts, Supervised):
+            self.verdicts.close()
+        for company in self._flown_again():
+            tried = self.tried + 1
+            batch = self.batch.take(company)
+            again = DetectorFlight(self.assembly, self.name, batch, tuple(self.kept), feed=self.feed, tried=tried)
+            self.feed(batch, [again])
+            score[:, company], texts = again.finish()
+            for case, text in zip(company.tolist(), texts, strict=True):
+                errors[case] = text
+            self.again.append((company, again))
+        return score, errors
+
+    def _flown_again(self) -> list[Cases]:
+        """Companies in which flights are flown again whose end is not theirs alone."""
+        raised, every = self.verdicts.raised, np.arange(len(self.batch.cases))
+        if isinstance(self.verdicts, Supervised) and self.detector.one_by_one:
+            # a process that ends has harmed others; where that happens again, each flies alone
+            lost = self.verdicts.lost
+            together = [lost] if len(lost) and self.tried < _TOGETHER else [lost[i : i + 1] for i in range(len(lost))]
+            return [*together, *([self.verdicts.doubt] if len(self.verdicts.doubt) else [])]
         if self.last_word or not any(raised):
-            return self.scoring.states.pack(self.score, n_cases), [each[0] if each else "" for each in raised]
+            return []
         # halves, so that the sound cases of a large batch still fly side by side
-        halves = [half for half in np.array_split(np.arange(n_cases), 2) if len(half)]
-        parts = []
-        for half in halves:
-            batch = self.batch.take(half)
-            again = DetectorFlight(self.assembly, self.name, batch)
-            feed_eagerly(self.assembly, batch, [again], until_over=True)
-            parts.append(again.finish())
-        return np.concatenate([score for score, _ in parts], axis=1), [text for _, texts in parts for text in texts]
+        return [half for half in np.array_split(every, 2) if len(half)]
 
     def tape(self) -> dict[str, Floats]:
         """What was kept, (n_time, n_rows, n_cases) each; not-a-number from where the detector raised on."""
@@ -133,6 +173,9 @@ class DetectorFlight:
             found[full] = np.full((n_time, n_rows, len(self.batch.cases)), np.nan)
             if rows:
                 found[full][: len(rows)] = np.reshape(rows, (len(rows), n_rows, -1))
+        for company, again in self.again:
+            for full, rows_again in again.tape().items():
+                found[full][: len(rows_again), :, company] = rows_again
         return found
 
 
@@ -142,26 +185,6 @@ def _names(detector: Adapted) -> tuple[str, ...]:
     of = {None: (), "sites": tuple(f"estimate of {site}" for site in sites)}
     estimates = of.get(detector.estimates, (f"estimate of {detector.estimates}",))
     return (*(f"declaration of {site}" for site in sites), "alarm", "residual", *estimates, *detector.recorded)
-
-
-class ConsequenceFlight:
-    """What is kept of the flights of a batch themselves, fed with what the loop shows sample by sample."""
-
-    def __init__(self, assembly: Assembly, batch: Batch) -> None:
-        self.consequences, n_cases = assembly.consequences, len(batch.cases)
-        self.constants = assembly.scoring.constants.unpack(batch.score_constants)
-        self.state = self.consequences.states.spread(self.consequences.start(), n_cases)
-
-    def step(self, seen: Sample, sample: float, departed: Floats) -> None:
-        """Take one more sample."""
-        c = self.constants
-        when: dict[str, Any] = {"k0": c.k0, "last": c.last, "sample": sample, "alive": sample < departed}
-        self.state = self.consequences.step(self.state, seen.truth, **when)
-
-    def rows(self) -> Floats:
-        """All that is kept, (n_rows, n_cases)."""
-        packed: Floats = self.consequences.states.pack(self.state, len(self.constants.k0))
-        return packed
 
 
 def fly_eagerly(

@@ -15,6 +15,7 @@ from fddbench.runner.assembly import Assembly, Batch
 from fddbench.runner.eager import DetectorFlight, feed_eagerly, flown_only, fly_eagerly
 from fddbench.runner.fused import Fused
 from fddbench.runner.given_up import GivenUp
+from fddbench.runner.in_c import as_c
 from fddbench.runner.reconfiguration import without_commander
 from fddbench.runner.twins import healthy_twins
 
@@ -63,9 +64,9 @@ class Flyer:
     ----------
     assembly : Assembly
         What flies.
-    backend : {"auto", "llvm", "numpy"}
+    backend : {"auto", "llvm", "numpy"}, or one of them and "+c"
         ``auto`` compiles where llvmlite is installed. Where the aircraft acts on a detector that cannot be compiled, all fly
-        in Python, whatever this says.
+        in Python, whatever this says. With ``+c`` detectors that can be traced fly as exported C.
     given_up : mapping of str to GivenUp
         Detectors that are not flown any more.
     """
@@ -73,7 +74,9 @@ class Flyer:
     def __init__(
         self, assembly: Assembly, backend: str = "auto", given_up: Mapping[str, GivenUp] | None = None
     ) -> None:
-        self.assembly, self.backend, self.given_up = assembly, backend, given_up or {}
+        backend, plus, _ = backend.partition("+c")
+        self.assembly, self.backend = as_c(assembly) if plus else assembly, backend + plus
+        self.given_up = given_up or {}
         large = bool(getattr(assembly.loop, "in_python", ""))
         self.compiled = (backend == "llvm" or (backend == "auto" and llvm.available())) and not (
             large or self._acts_on_python()
@@ -185,7 +188,7 @@ class Flyer:
     def _fly_compiled(self, batch: Batch, recorded: tuple[str, ...]) -> Outcome:
         assembly, fused = self.assembly, self.fused
         needed = self.needed(recorded)
-        opaque = [DetectorFlight(assembly, name, batch, recorded, alone=False) for name in self.opaque]
+        opaque = [DetectorFlight(assembly, name, batch, recorded, alone=False, feed=self.feed) for name in self.opaque]
         kept: dict[str, list[Floats]] = {name: [] for name in needed if name in recorded}
         for flown in self._tiles(batch, needed, opaque):
             for name, parts in kept.items():

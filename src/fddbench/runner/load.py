@@ -116,11 +116,11 @@ def seconds_in_python(detector: Adapted, samples: Sequence[SimpleNamespace]) -> 
 
 def _mean_seconds(detector: Adapted, samples: Sequence[SimpleNamespace], n_cases: int, flight: int) -> float:
     """Mean time of a step [s]; infinite if it raises."""
-    active, drawn = np.zeros(n_cases, dtype=bool), detector.draws.unpack(np.zeros((detector.draws.size, n_cases)))
+    active, normals = np.zeros(n_cases, dtype=bool), np.zeros((detector.draws.size, n_cases))
     active[flight] = True
     verdicts, spent = verdicts_of(detector, n_cases), 0.0
     for measured in samples:
         clock_s = time.perf_counter()
-        verdicts.step(drawn, measured, active)
+        verdicts.step(normals, measured, active)
         spent += time.perf_counter() - clock_s
     return np.inf if verdicts.raised[flight] else spent / len(samples)

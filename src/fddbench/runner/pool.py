@@ -1,89 +1,96 @@
 """The joblib pool: chunks out as plain data, shards back as they finish, nothing lost when a worker dies."""
 
-import ctypes
-import os
-import signal
-import sys
-from collections.abc import Generator, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from pathlib import Path
 from typing import Any
 
-from fddbench.errors import FddbenchError
+from fddbench.errors import FddbenchError, reason_of
 from fddbench.results.manifest import Shard
 from fddbench.runner.chunks import Spans
+from fddbench.runner.engines import Engine, pool_of, worker_died
+from fddbench.runner.sending import Errand, Sent, Unseen, carried_by, errand, fly_anywhere, keep
 from fddbench.runner.work import Work, fly_and_write
 
 __all__ = ["fly_all"]
 
 _ATTEMPTS = 3
-_SAFE_PATH = "PYTHONSAFEPATH"
+Pool = Callable[[Iterable[Any]], Iterator[Any]]
 
 
-def fly_all(work: Work, chunks: Sequence[Spans], *, jobs: int, threads: bool) -> Generator[Shard, None, None]:
+def fly_all(work: Work, chunks: Sequence[Spans], *, engine: Engine, threads: bool) -> Generator[Shard, None, None]:
     """Shards in the order in which they finish.
 
-    With one job everything happens in this process. Threads are for compiled flights, which release the interpreter's
-    lock; processes for those that run in Python. A killed worker aborts the pool but loses nothing that is written:
-    what is missing is given out again.
+    With one job everything happens in this process, unless an engine is named. A killed worker aborts the pool but loses
+    nothing that is written: what is missing is given out again.
 
     Raises
     ------
     FddbenchError
-        Workers died three times over; nothing finished is lost.
+        Workers died three times over, or cannot fly this campaign; nothing finished is lost.
     """
+    if engine.alone(len(chunks)):
+        yield from (fly_and_write(work, chunk) for chunk in chunks)
+        return
     left = list(chunks)
-    for _ in range(_ATTEMPTS):
-        try:
-            for shard in _once(work, left, jobs=jobs, threads=threads):
-                left = [chunk for chunk in left if chunk != shard.cases]
-                yield shard
-            return
-        except _worker_died():
-            continue
+    with pool_of(engine, threads=threads) as pool:
+        for _ in range(_ATTEMPTS):
+            try:
+                for shard in _once(work, left, engine, pool):
+                    left = [chunk for chunk in left if chunk != shard.cases]
+                    yield shard
+                return
+            except worker_died():
+                continue
     raise FddbenchError(
         f"workers died {_ATTEMPTS} times, {len(left)} chunks are left (is there enough memory?).\n"
         "Run the same command again to continue, with --jobs 1 to see what happens."
     )
 
 
-def _once(work: Work, chunks: Sequence[Spans], *, jobs: int, threads: bool) -> Iterator[Shard]:
-    if jobs == 1 or len(chunks) <= 1:
-        yield from (fly_and_write(work, chunk) for chunk in chunks)
-        return
-    from joblib import Parallel, delayed
+def _once(work: Work, chunks: Sequence[Spans], engine: Engine, pool: Pool) -> Iterator[Shard]:
+    from joblib import delayed
 
-    options = {"backend": "threading"} if threads else {"backend": "loky", "initializer": _begin_worker}
-    pool = Parallel(n_jobs=jobs, return_as="generator_unordered", **options)
-    with _safe_path():
+    if not engine.elsewhere:
         yield from pool(delayed(fly_and_write)(work, chunk) for chunk in chunks)
+        return
+    with errand(work) as own:
+        unseen: list[Spans] = []
+        yield from _elsewhere(own, chunks, unseen, engine, pool)
+        if unseen:
+            yield from _elsewhere(carried_by(own), unseen, [], engine, pool)
 
 
-@contextmanager
-def _safe_path() -> Iterator[None]:
-    """Begin workers without the working folder in their path: a ``types.py`` in it would be theirs instead of Python's."""
-    before = os.environ.get(_SAFE_PATH)
-    os.environ[_SAFE_PATH] = "1"
+def _elsewhere(
+    own: Errand, chunks: Sequence[Spans], unseen: list[Spans], engine: Engine, pool: Pool
+) -> Iterator[Shard]:
+    """Shards of workers that may be on other machines; chunks of those that lack the campaign are put aside.
+
+    Raises
+    ------
+    FddbenchError
+        A worker is another program, or lacks one.
+    """
+    from joblib import delayed
+
     try:
-        yield
-    finally:
-        if before is None:
-            del os.environ[_SAFE_PATH]
-        else:
-            os.environ[_SAFE_PATH] = before
+        for answer in pool(delayed(fly_anywhere)(own, chunk) for chunk in chunks):
+            if isinstance(answer, FddbenchError):
+                raise answer
+            if isinstance(answer, Unseen):
+                unseen.append(answer.cases)
+            else:
+                yield keep(Path(own.work.folder), answer) if isinstance(answer, Sent) else answer
+    except (ImportError, AttributeError, RuntimeError) as error:
+        if isinstance(error, worker_died()):
+            raise
+        why = "; ".join(reason_of(each) for each in _chain(error))
+        raise FddbenchError(
+            f"workers of {engine.name} cannot fly this campaign ({why}); they need fddbench and the packages of its plug-ins "
+            "in the versions that are installed here"
+        ) from error
 
 
-def _begin_worker() -> None:
-    """Leave Ctrl-C to the parent, and end with it: loky workers otherwise outlive a killed parent by minutes."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    if sys.platform == "linux":
-        ctypes.CDLL(None).prctl(1, signal.SIGTERM)
-        if os.getppid() == 1:
-            os._exit(1)
-
-
-def _worker_died() -> tuple[type[BaseException], ...]:
-    """What joblib raises when a worker is gone."""
-    from joblib.externals.loky.process_executor import BrokenProcessPool, TerminatedWorkerError
-
-    found: tuple[Any, ...] = (TerminatedWorkerError, BrokenProcessPool)
-    return found
+def _chain(error: BaseException | None) -> Iterator[BaseException]:
+    while error is not None:
+        yield error
+        error = error.__cause__

@@ -19,8 +19,12 @@ from fddbench.runner.eager import DetectorFlight
 from fddbench.runner.firsts import first_flights
 from fddbench.runner.flight import Flyer
 from fddbench.runner.given_up import GivenUp
+from fddbench.runner.in_c import InC
 
 __all__ = ["rehearse", "rehearsed"]
+
+_HANGS = 2
+"""First flights that end with `timeout` after which a detector is given up; part of the result."""
 
 _ALONE, _SIDE_BY_SIDE, _LONGEST, _SHORTER = 5, 64, 2000, 25
 """Flights that are flown again alone, flights beside them where that costs nothing, samples of each at most, and how many fewer
@@ -45,6 +49,8 @@ def rehearsed(flyer: Flyer, notice: Callable[[str], None] | None = None) -> Flye
             if name == flyer.assembly.commander:
                 rest = "the aircraft acts on it, so nothing is flown and all rows are `error`"
             notice(f"{name} is {given_up[name].said}; {rest}")
+        elif isinstance(own.detector, InC):
+            notice(f"{name} flies as C in a process of its own, compiled by {own.detector.by}")
         elif own.one_by_one or flyer.compiled:
             how = "one flight at a time" if own.one_by_one else "many flights side by side"
             all_ = ", and with it the aircraft that acts on it" if name == flyer.assembly.commander else ""
@@ -65,6 +71,9 @@ def rehearse(flyer: Flyer) -> dict[str, GivenUp]:
         return {}
     given_up, wrong = {}, []
     for name in flyer.opaque:
+        own = flyer.assembly.detectors[name].detector
+        if isinstance(own, InC) and own.exported:
+            continue
         given = _always_failing(flyer, name, first)
         if given is not None:
             given_up[name] = given
@@ -81,7 +90,7 @@ def _always_failing(flyer: Flyer, name: str, first: Batch) -> GivenUp | None:
     lines: set[tuple[str, str]] = set()
     for i, case in enumerate(first.cases.tolist()):
         batch = first.take(np.array([i]))
-        flight = DetectorFlight(flyer.assembly, name, batch)
+        flight = DetectorFlight(flyer.assembly, name, batch, feed=flyer.feed)
         flyer.feed(batch, [flight])
         _, errors = flight.finish()
         raised = flight.verdicts.raised[0]
@@ -91,6 +100,8 @@ def _always_failing(flyer: Flyer, name: str, first: Batch) -> GivenUp | None:
         lines.add(raised[1])
         if len(lines) > 1:
             return None
+        if raised[1][0] == "timeout" and len(reasons) == _HANGS:
+            break  # each takes as long as a step may
     return GivenUp(reasons=tuple(reasons.items()))
 
 
@@ -154,16 +165,18 @@ def _spread(n: int, most: int) -> npt.NDArray[np.int64]:
 def _made_again(assembly: Assembly, name: str) -> Adapted:
     """The same detector, newly made of its design."""
     own = assembly.detectors[name]
+    if isinstance(own.detector, InC):
+        return Adapted(own.detector.again(), own.bus, own.every)
     for design in assembly.plan.campaign.designs:
         if design.name == name:
-            made = Adapted(design.build(own.bus), own.bus, design.every)
+            made = Adapted(design.build(own.bus), own.bus, design.every, design)
             return made if type(made.detector) is type(own.detector) else own
     return own
 
 
 def _heard(flyer: Flyer, assembly: Assembly, name: str, batch: Batch) -> DetectorFlight:
     """A detector on a batch, every verdict kept."""
-    flight = DetectorFlight(assembly, name, batch, hear=True)
+    flight = DetectorFlight(assembly, name, batch, hear=True, feed=flyer.feed)
     flyer.feed(batch, [flight])
     return flight
 

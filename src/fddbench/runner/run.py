@@ -6,22 +6,21 @@ from collections.abc import Callable, Generator
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
-from zlib import crc32
-
-import numpy as np
-import numpy.typing as npt
 
 from fddbench.campaign.meaning import Campaign
 from fddbench.errors import ResultsWarning, warn
 from fddbench.results import manifest
-from fddbench.results.folder import claim, provenance_of, refuse_foreign
+from fddbench.results.compacting import ENOUGH, compact
+from fddbench.results.folder import claim, refuse_foreign
 from fddbench.results.lock import locked
-from fddbench.results.mending import mend
-from fddbench.results.stages import Numbering
+from fddbench.results.schema import FAILED
 from fddbench.runner.assembling import assemble, with_detectors
 from fddbench.runner.chunks import CHUNK, COMPILED_CHUNK, OPAQUE_CHUNK, cut, spans
+from fddbench.runner.engines import Engine
 from fddbench.runner.fingerprint import fingerprint_of, provenance_for
 from fddbench.runner.flight import Flyer
+from fddbench.runner.in_c import InC
+from fddbench.runner.left import Part, Wanted, left_in
 from fddbench.runner.pool import fly_all
 from fddbench.runner.rehearsal import rehearsed
 from fddbench.runner.work import Work, lent
@@ -50,9 +49,9 @@ class RunReport:
     flights, continued : int
         Flights flown by this run, and those found done.
     total : int
-        Flights of the campaign.
+        Flights of the campaign, or of the part of it that was asked for.
     statuses : Counter
-        Rows by status, of the whole campaign.
+        Rows by status, of all that the folder holds.
     interrupted : bool
         Ctrl-C came before the end.
     wall_s : float
@@ -70,7 +69,7 @@ class RunReport:
     @property
     def failed_rows(self) -> int:
         """Rows that are neither scored nor infeasible."""
-        return sum(n for status, n in self.statuses.items() if status not in ("ok", "infeasible"))
+        return sum(n for status, n in self.statuses.items() if status in FAILED)
 
 
 def run_campaign(
@@ -78,9 +77,12 @@ def run_campaign(
     folder: Path,
     *,
     jobs: int = 2,
+    engine: Engine | None = None,
     fresh: bool = False,
     chunk: int | None = None,
     backend: str = "auto",
+    wanted: Wanted | None = None,
+    retry_failed: bool = False,
     progress: Callable[[Progress], None] | None = None,
     notice: Callable[[str], None] | None = None,
 ) -> RunReport:
@@ -93,84 +95,72 @@ def run_campaign(
     folder : Path
         Folder of results, laid out as ARCHITECTURE.md says.
     jobs, chunk : int
-        Worker processes, and cases side by side; no part of any result.
+        Workers, and cases side by side; no part of any result.
+    engine : Engine, optional
+        Who flies, with its own number of workers; no part of any result.
     fresh : bool
         Replace what the folder holds.
-    backend : {"auto", "llvm", "numpy"}
-        ``auto`` compiles where llvmlite is installed; no part of any result.
+    backend : {"auto", "llvm", "numpy"}, or one of them and "+c"
+        See `fddbench.runner.flight.Flyer`; no part of any result.
+    wanted, retry_failed : array of bool, optional, and bool
+        Fly these rows only, (n_detectors, n_cases), see `fddbench.campaign.selection`; fly shards again that have failed rows.
     progress, notice : callable
         Told at the beginning and after every chunk; told what slows the run down, and what was damaged and is flown again.
 
     Raises
     ------
     FddbenchError
-        The design makes no detector, or one whose rows depend on more than their flight; the folder is another campaign's or
-        program's, or is being written.
+        No detector, or one whose rows depend on its company; another campaign's folder, or one that is being written.
     """
-    begun = time.monotonic()
+    begun, own = time.monotonic(), engine or Engine(jobs=jobs)
     flyer = Flyer(assemble(campaign), backend)
     plan, fingerprint = flyer.assembly.plan, fingerprint_of(campaign)
     refuse_foreign(folder, fresh=fresh)
     flyer = rehearsed(flyer, notice)
+    own.require_able(compiled=flyer.compiled, opaque=tuple(flyer.opaque))
     say = notice or _warned
     with locked(folder, notice=say):
-        claim(folder, files=campaign.files(), provenance=provenance_for(plan, fingerprint), fresh=fresh)
-        parts, told = _left(folder, progress, say)
+        claim(folder, files=campaign.files(), provenance=provenance_for(plan, fingerprint) | in_c(flyer), fresh=fresh)
+        left = left_in(folder, say, wanted=wanted, again=FAILED if retry_failed else frozenset())
+        told = _Told(before=left.n_wanted - left.n_left, total=left.n_wanted, statuses=left.statuses, progress=progress)
         told.tell()
         # workers of an earlier run may still be there, in the working folder of that time
         work = Work(folder=str(folder.absolute()), fingerprint=fingerprint.sha256, backend=backend)
-        interrupted = any(_fly_part(flyer, work, part, jobs=jobs, chunk=chunk, told=told) for part in parts)
+        interrupted = any(_fly_part(flyer, work, part, engine=own, chunk=chunk, told=told) for part in left.parts)
         if interrupted:  # perhaps between the listing of a shard and its count
-            told.flown = plan.n_cases - sum(len(part.cases) for part in _left(folder, None, say)[0]) - told.before
+            told.flown = told.total - left_in(folder, say, wanted=wanted).n_left - told.before
+        else:
+            _few_files(folder, fingerprint.sha256, say)
+    return _report(folder, told, interrupted=interrupted, wall_s=time.monotonic() - begun)
+
+
+def _report(folder: Path, told: "_Told", *, interrupted: bool, wall_s: float) -> RunReport:
     return RunReport(
         folder=folder,
         flights=told.flown,
         continued=told.before,
-        total=plan.n_cases,
+        total=told.total,
         statuses=told.statuses,
         interrupted=interrupted,
-        wall_s=time.monotonic() - begun,
+        wall_s=wall_s,
     )
 
 
-@dataclass(frozen=True)
-class _Part:
-    """Flights that lack rows of the same detectors; no name for all."""
-
-    cases: npt.NDArray[np.int64]
-    detectors: tuple[str, ...]
-    label: str
+def in_c(flyer: Flyer) -> dict[str, object]:
+    """Which detectors fly as C, and who compiled it, for the provenance; nothing where none does."""
+    flown = {name: own.detector for name, own in flyer.assembly.detectors.items() if isinstance(own.detector, InC)}
+    return {"flown_as_c": {name: str(each.by) for name, each in flown.items()}} if flown else {}
 
 
-def _left(
-    folder: Path, progress: Callable[[Progress], None] | None, say: Callable[[str], None]
-) -> tuple[list[_Part], "_Told"]:
-    """What is not there yet, and the count of what is; what was lost is told."""
-    provenance = provenance_of(folder)
-    done, lost = mend(folder, provenance=provenance)
-    for what in lost:
-        say(f"{folder}: {what}; its flights are flown again")
-    numbering = Numbering(provenance)
-    lacks = numbering.held(done) == 0
-    statuses = Counter[str]()
-    for shard in done:
-        statuses.update(shard.statuses)
-    grown, parts = len(provenance["fingerprints"]) > 1, []
-    left = np.flatnonzero(lacks.any(axis=0))
-    alike = lacks[:, left].all() or not len(left)
-    some = lacks[:, left[:1]] if alike else lacks[:, left]
-    kinds, which = np.unique(some, axis=1, return_inverse=True) if len(left) else (some, left)
-    which = np.zeros(len(left), dtype=np.int64) if alike else which
-    for k in range(kinds.shape[1]):
-        names = tuple(name for name, lack in zip(numbering.detectors, kinds[:, k], strict=True) if lack)
-        detectors = () if len(names) == len(numbering.detectors) else names
-        label = f"{crc32(repr((provenance['fingerprints'], detectors)).encode()):010d}" if grown or detectors else ""
-        parts.append(_Part(left[which.ravel() == k].astype(np.int64), detectors, label))
-    n = numbering.n_cases
-    return parts, _Told(before=n - len(left), total=n, statuses=statuses, progress=progress)
+def _few_files(folder: Path, fingerprint: str, say: Callable[[str], None]) -> None:
+    """Join the many small shards of a large campaign; a disk that has no room for it is no failure of the run."""
+    try:
+        compact(folder, only=fingerprint, least=ENOUGH)
+    except OSError as error:
+        say(f"{folder}: its shards stay as small as they are ({error.strerror}); join them with `fddbench compact`")
 
 
-def _fly_part(flyer: Flyer, work: Work, part: _Part, *, jobs: int, chunk: int | None, told: "_Told") -> bool:
+def _fly_part(flyer: Flyer, work: Work, part: Part, *, engine: Engine, chunk: int | None, told: "_Told") -> bool:
     """Fly what lacks rows of the same detectors; True when Ctrl-C came first."""
     if part.detectors:
         campaign = with_detectors(flyer.assembly.plan.campaign, part.detectors)
@@ -178,10 +168,10 @@ def _fly_part(flyer: Flyer, work: Work, part: _Part, *, jobs: int, chunk: int | 
         flyer = Flyer(assemble(campaign), flyer.backend, given_up)
     work = replace(work, given_up=tuple(flyer.given_up.items()), detectors=part.detectors, label=part.label)
     size = chunk or _chunk(flyer)
-    chunks = [spans(cases) for cases in cut(flyer.assembly.plan, part.cases, size=size, jobs=jobs)]
-    threads = flyer.compiled and not flyer.opaque
+    chunks = [spans(cases) for cases in cut(flyer.assembly.plan, part.cases, size=size, jobs=engine.jobs)]
+    threads = engine.in_threads(compiled=flyer.compiled, opaque=tuple(flyer.opaque))
     with lent(flyer, work) if threads else nullcontext():
-        return _fly(Path(work.folder), fly_all(work, chunks, jobs=jobs, threads=threads), told)
+        return _fly(Path(work.folder), fly_all(work, chunks, engine=engine, threads=threads), told)
 
 
 @dataclass(kw_only=True)

@@ -1,5 +1,6 @@
 """Flights of the yaw-rate benchmark as logs, and campaigns on logs."""
 
+import numpy as np
 import yaml
 
 from fddbench.api import replaying
@@ -35,7 +36,7 @@ def write(path, content):
 
 def mapping(folder, logs, **more):
     """Mapping of logs of our flights, `logs` by name of the log its file."""
-    named = [{"name": name, "file": file} for name, file in logs.items()]
+    named = logs if isinstance(logs, list) else [{"name": name, "file": file} for name, file in logs.items()]
     content = {"logs": named, "largest_gap_s": 0.02, "signals": MAPPED, "sites": SITES, **more}
     return write(folder / "logs.yaml", content)
 
@@ -55,7 +56,7 @@ def rows_of(path, backend="auto"):
     """Rows and events of a campaign."""
     assembly = assemble(read_campaign(path))
     flyer, cases = Flyer(assembly, backend), list(range(assembly.plan.n_cases))
-    rows, events = rows_and_events(flyer, __import__("numpy").array(cases))
+    rows, events = rows_and_events(flyer, np.array(cases))
     return rows.to_pandas(), events.to_pandas()
 
 

@@ -80,7 +80,7 @@ def test_text_of_users_is_escaped(make_report):
     report = make_report(scenarios=("jam_a",), flights=6, lost={0: LOST[0]}, recordings=())
     campaign = {**report.campaign, "about": EVIL, "name": "<b>$x$"}
     designs = [{"name": EVIL, "kind": EVIL}]
-    requirements = [{"name": EVIL, "verdict": "pass", "about": EVIL}]
+    requirements = [{"name": EVIL, "verdict": EVIL, "about": EVIL}]
     rows = report.rows.assign(scenario=report.rows["scenario"].str.replace("jam_a", EVIL))
     page = page_html(
         replace(
@@ -117,11 +117,19 @@ def test_a_design_tuned_on_these_flights_is_marked(make_report):
     assert "<strong>In sample:</strong>" in page
 
 
-def test_requirements_stand_on_the_first_screen(make_report):
-    told = [{"name": "few false alarms", "verdict": "undecided", "measured": "0 in 9 h", "needed": "300 more"}]
-    page = page_html(make_report(scenarios=("jam_a",), flights=3, recordings=(), requirements=told))
-    assert page.index("? undecided") < page.index("Detectors, best first")
-    assert "300 more" in page
+def test_requirements_stand_on_the_first_screen_failures_first(make_report):
+    asked = {"of": "right_share", "limit": 0.98, "at_least": True, "runs_used": 10, "runs_planned": 40, "detector": "d"}
+    told = [
+        {"name": "right", "verdict": "pass", "value": 1.0, "low": 0.99, "high": 1.0, **asked},
+        {"name": "few alarms", "verdict": "undecided", "of": "false_alarms_per_hour", "limit": 0.1, "value": 0.0, "low": 0.0,
+         "high": float("inf"), "at_least": False, "flights_needed": 300},
+        {"name": "plain", "verdict": "fail"},
+    ]  # fmt: skip
+    page = text_of(page_html(make_report(scenarios=("jam_a",), flights=3, recordings=(), requirements=told)))
+    assert page.index("✗ fail") < page.index("? undecided") < page.index("✓ pass") < page.index("Detectors, best first")
+    assert "Of 3 judgements 1 pass, 1 fail, 1 are undecided." in page
+    assert "right share at least 98.0 %" in page
+    assert "300 more flights" in page
     assert "Requirements" not in page_html(make_report(scenarios=("jam_a",), flights=3, recordings=()))
 
 

@@ -70,19 +70,19 @@ def _mapped(mapping: ChannelMap) -> Iterator[tuple[Channel, str, Mapped]]:
 
 def _series(file: LogFile, mapping: ChannelMap, wrong: list[str]) -> dict[Channel, Series]:
     """Channels in the units of their signals; none where some are wrong."""
-    found, before, read = {}, len(wrong), dict[str, Series]()
+    found, whole, read = {}, True, dict[str, Series]()
     for channel, column, own in _mapped(mapping):
         try:
             if column not in read:
                 read[column] = file.series(column, mapping.missing)
             factor = _factor(channel[0], column, own)
         except FddbenchError as error:
-            if str(error) not in wrong:
-                wrong.append(str(error))
+            whole = False
+            wrong += [str(error)] if str(error) not in wrong else []
             continue
         series = read[column]
         found[channel] = series if factor == 1.0 else replace(series, values=series.values * factor)
-    return found if len(wrong) == before else {}
+    return found if whole else {}
 
 
 def _factor(signal: str, column: str, own: Mapped) -> float:

@@ -74,9 +74,8 @@ def _curved(time_s: Floats, values: Floats, row: np.ndarray, after: np.ndarray) 
 
 def largest_gap(series: Series, begin_s: float, end_s: float) -> tuple[float, int]:
     """Longest time between two rows that a stretch of the log needs [s], and the row after it."""
-    inside = np.flatnonzero((series.time_s > begin_s) & (series.time_s[...] <= end_s))
-    first, last = (int(inside[0]), int(inside[-1])) if len(inside) else (1, 1)
-    last = min(last + 1, len(series.time_s) - 1) if series.time_s[last] < end_s else last
-    gaps = np.diff(series.time_s[first - 1 if first else 0 : last + 1])
+    first = max(int(np.searchsorted(series.time_s, begin_s, side="right")) - 1, 0)
+    last = max(min(int(np.searchsorted(series.time_s, end_s)), len(series.time_s) - 1), first + 1)
+    gaps = np.diff(series.time_s[first : last + 1])
     at = int(np.argmax(gaps))
-    return float(gaps[at]), (first if first else 1) + at
+    return float(gaps[at]), first + 1 + at

@@ -6,6 +6,7 @@ from math import prod
 from fddbench.campaign.reading.document import Document
 from fddbench.campaign.rules.model import CampaignFile
 from fddbench.campaign.rules.ranges import ranges
+from fddbench.campaign.rules.required import requirement_mistakes
 from fddbench.campaign.rules.swept import names_of
 from fddbench.campaign.rules.times import MOST_LEVELS, times
 from fddbench.campaign.sampling import point_radices
@@ -30,6 +31,7 @@ def inconsistencies(
     """Every contradiction in a campaign whose keys and names are right."""
     yield from _reconfigured(document, written)
     yield from _shown(document, written)
+    yield from requirement_mistakes(document, written, [bool(faults[n]) for n in range(len(written.scenarios))])
     yield from _detectors_twice(document, written)
     yield from _repeated(document, [entry.name for entry in written.scenarios])
     yield from _too_many(document, written, faults)

@@ -19,6 +19,7 @@ __all__ = [
     "Normal",
     "Purpose",
     "ReportEntry",
+    "RequirementEntry",
     "ScenarioEntry",
     "Seed",
     "Strict",
@@ -171,6 +172,44 @@ class ReportEntry(Strict):
     scenarios: tuple[Name, ...] = ()
 
 
+class RequirementEntry(Strict):
+    """What a detector must do, judged by the flights: pass, fail or undecided; decides no row.
+
+    Attributes
+    ----------
+    name : str
+        How the verdict is called; made of the other keys where there is none.
+    of : str
+        What is counted: a share of the flights, a rate [1/h] of distinct flights, or a time over its limit.
+    at_least : float
+        Least share, 0 to 1; of right_share.
+    at_most : float
+        Largest share, rate per hour or time over its limit; of all others.
+    share : float
+        Share of the flights that must keep the time, 0 to 1; of normalized_detection_time.
+    scenarios : tuple of str
+        Names or patterns such as "jam_*" of the scenarios that count, pooled; all that fit the measure where there are none.
+    detectors : tuple of str
+        Names or patterns of the detectors that are judged, each by itself; all where there are none.
+    per : str
+        Judge one by one: each scenario, or each value of a parameter of grid or sequence.
+    confidence : float
+        One less the probability of a false pass, and of a false fail, however often one looks.
+    """
+
+    name: Name | None = None
+    of: Literal[
+        "right_share", "wrong_site_share", "normalized_detection_time", "false_alarm_share", "false_alarms_per_hour"
+    ]
+    at_least: Number | None = None
+    at_most: Number | None = None
+    share: Annotated[float, Field(gt=0.0, lt=1.0)] | None = None
+    scenarios: tuple[str, ...] = ()
+    detectors: tuple[str, ...] = ()
+    per: str | None = None
+    confidence: Annotated[float, Field(ge=0.5, lt=1.0)] = 0.95
+
+
 class CampaignFile(Strict):
     """A campaign as it is written; `campaign_file` adds the choices of its benchmark.
 
@@ -201,8 +240,12 @@ class CampaignFile(Strict):
     reconfigure : str
         One of these detectors, if the aircraft is to act on what it declares: at every sample on its declarations of the
         sample before. Nobody else's declarations, and no other detector in the list, have a part in the flight.
+    symbols : str or list of symbols
+        Library of operations that every detector must keep to, see `fddbench.exported.symbols`; decides no row.
     report : mapping
         What else the report shows.
+    requirements : list of RequirementEntry
+        What detectors must do; ``fddbench run --require`` ends with 1 where it is not shown.
     """
 
     name: Name
@@ -217,7 +260,9 @@ class CampaignFile(Strict):
     dispersions: Dispersions = Dispersions()
     detectors: Annotated[tuple[DetectorEntry, ...], Field(min_length=1)]
     reconfigure: Name | None = None
+    symbols: str | list[str | dict[str, Annotated[int, Field(ge=1)]]] | None = None
     report: ReportEntry = ReportEntry()
+    requirements: tuple[RequirementEntry, ...] = ()
 
     @property
     def detector_names(self) -> tuple[str, ...]:

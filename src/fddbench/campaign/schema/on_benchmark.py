@@ -1,6 +1,6 @@
 """JSON schema of the campaigns on one benchmark: every name, range and unit that it knows."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from fddbench import kinds
@@ -14,6 +14,7 @@ from fddbench.campaign.rules.model import (
     MonteCarlo,
     Normal,
     ReportEntry,
+    RequirementEntry,
     ScenarioEntry,
     TruncatedNormal,
     campaign_file,
@@ -24,11 +25,13 @@ from fddbench.campaign.schema.described import described, titled
 from fddbench.campaign.schema.names import name_rules
 from fddbench.campaign.schema.parts import DIALECT, FILE_KIND, Schema, one_of_names, when
 from fddbench.interfaces import Benchmark, Choice
+from fddbench.metrics.requirements import MEASURES
 
 __all__ = ["benchmark_schema", "written_schema"]
 
 _MODELS = (
-    Dispersions, Distribution, MonteCarlo, Normal, TruncatedNormal, ReportEntry, ScenarioEntry, Sweep, SweptDesign,
+    Dispersions, Distribution, MonteCarlo, Normal, TruncatedNormal, ReportEntry, RequirementEntry, ScenarioEntry, Sweep,
+    SweptDesign,
 )  # fmt: skip
 _DATA_FILE = r"\.ya?ml$"
 
@@ -85,10 +88,29 @@ def written_schema(choices: tuple[str, ...]) -> Schema:
     healthy = {"not": {"required": ["faults"], "properties": {"faults": {"minItems": 1}}}}
     no_limit = {"properties": {"detection_time_limit_s": {"type": "null"}}}
     definitions["ScenarioEntry"]["allOf"] = [when(healthy, no_limit)]
+    definitions["RequirementEntry"]["allOf"] = list(_limits())
     schema["properties"]["detectors"]["uniqueItems"] = True
     tuning = {"properties": {"purpose": {"const": "tuning"}}, "required": ["purpose"]}
     schema["allOf"] = [when(tuning, {"properties": {"reconfigure": {"type": "null"}}})]
     return schema
+
+
+def _limits() -> Iterator[Schema]:
+    """Which limit each measure is required with."""
+    null = {"type": "null"}
+    least = {"required": ["at_least"], "properties": {"at_most": null, "share": null, "at_least": _SHARE}}
+    timed = {"required": ["at_most", "share"], "properties": {"at_least": null, "at_most": {"exclusiveMinimum": 0}}}
+    share = {"required": ["at_most"], "properties": {"at_least": null, "share": null, "at_most": _SHARE}}
+    rate = {
+        "required": ["at_most"],
+        "properties": {"at_least": null, "share": null, "at_most": {"exclusiveMinimum": 0}},
+    }
+    of = {"right_share": least, "normalized_detection_time": timed, "false_alarms_per_hour": rate}
+    for name in MEASURES:
+        yield when({"properties": {"of": {"const": name}}, "required": ["of"]}, of.get(name, share))
+
+
+_SHARE: Schema = {"type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 1}
 
 
 def _options(choice: Choice) -> Schema:

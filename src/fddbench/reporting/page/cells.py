@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 import pandas as pd
 
 from fddbench.metrics.association import Association, Parts, associations, parted
@@ -15,7 +16,7 @@ from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.page.ranking import beside_best
 from fddbench.reporting.page.sizes import SizeCurve, size_curve
 
-__all__ = ["Cell", "cells", "parts_of"]
+__all__ = ["Cell", "cells"]
 
 _MOST_DECLARED, _MOST_WORST, _MOST_PARTS = 6, 5, 4
 Line = Mapping[Any, Any]
@@ -59,7 +60,7 @@ class Cell:
     size: SizeCurve | None = None
 
 
-def parts_of(columns: Columns, scenario: int) -> dict[str, Parts]:
+def _parts_of(columns: Columns, scenario: int) -> dict[str, Parts]:
     """Parameters and sizes that vary in a scenario, cut into parts for all detectors alike; places are those of all rows.
 
     Of several that vary together, value for value, the first stands for all.
@@ -72,7 +73,7 @@ def parts_of(columns: Columns, scenario: int) -> dict[str, Parts]:
         if own is None or own.place.tobytes() in alike:
             continue
         alike.add(own.place.tobytes())
-        place = np.full(len(columns), -1, dtype=np.int64)
+        place: npt.NDArray[Any] = np.full(len(columns), -1, dtype=np.int8)  # small: a row each, for every parameter
         place[places] = own.place
         found[name] = Parts(place=place, low=own.low, high=own.high)
     return found
@@ -94,7 +95,7 @@ def cells(columns: Columns, summary: pd.DataFrame, best: int | None) -> dict[tup
     paired = _paired(columns, best)
     found = {}
     for s, scenario in enumerate(columns.scenarios):
-        parts = parts_of(columns, s)
+        parts = _parts_of(columns, s)
         for d, detector in enumerate(columns.detectors):
             line = lines.get((scenario, detector))
             if line is not None:
@@ -129,13 +130,15 @@ def _cell(
     faulty = bool(len(flown)) and not line["healthy"]
     failed = columns.failed[flown]
     sure = flown[columns.decided[flown]]
-    own = {name: Parts(place=each.place[sure], low=each.low, high=each.high) for name, each in parts.items()}
-    run = columns.whole("run")
+    own = {
+        name: Parts(place=each.place[sure].astype(np.int64), low=each.low, high=each.high)
+        for name, each in parts.items()
+    }
     return Cell(
         scenario=s, detector=d, line=line,
         incidence=_incidence(columns, flown) if faulty else None,
         declared=_declared(columns, flown) if faulty else (),
-        associations=associations(own, columns.failed[sure], run[sure], most=_MOST_PARTS),
+        associations=associations(own, columns.failed[sure], columns.whole("run", sure), most=_MOST_PARTS),
         worst=_worst(columns, flown, failed),
         paired=paired[0] if paired else None, p_holm=paired[1] if paired else None,
         size=size_curve(columns, sure) if faulty else None,
@@ -146,7 +149,7 @@ def _incidence(columns: Columns, flown: "np.ndarray[Any, Any]") -> Incidence:
     seen = columns.numbers("flight_s")[flown] - columns.numbers("onset_s")[flown]
     return incidence(
         columns.texts("outcome")[flown], found_s=columns.numbers("detection_time_s")[flown],
-        wrong_s=columns.numbers("wrong_site_time_s")[flown], seen_s=seen, run=columns.whole("run")[flown],
+        wrong_s=columns.numbers("wrong_site_time_s")[flown], seen_s=seen, run=columns.whole("run", flown),
     )  # fmt: skip
 
 
@@ -161,10 +164,9 @@ def _declared(columns: Columns, flown: "np.ndarray[Any, Any]") -> list[tuple[str
 
 def _worst(columns: Columns, flown: "np.ndarray[Any, Any]", failed: "np.ndarray[Any, Any]") -> list[str]:
     """Five flights that failed, or where none did the slowest: healthy sites and false alarms first, then missed, then late."""
-    outcome = columns.texts("outcome")[flown].astype(str)
-    rank = np.select(
-        [np.isin(outcome, ("false_alarm", "wrong_site")), outcome == "missed", outcome == "late"], [3, 2, 1], 0
-    )
+    outcome = columns.texts("outcome")[flown]
+    named = {name: np.asarray(outcome == name, dtype=bool) for name in ("false_alarm", "wrong_site", "missed", "late")}
+    rank = np.select([named["false_alarm"] | named["wrong_site"], named["missed"], named["late"]], [3, 2, 1], 0)
     slow = np.nan_to_num(columns.numbers("normalized_detection_time")[flown])
     margin = np.fmax(
         np.nan_to_num(columns.numbers("margin_healthy")[flown]),
@@ -172,5 +174,5 @@ def _worst(columns: Columns, flown: "np.ndarray[Any, Any]", failed: "np.ndarray[
     )
     order = np.lexsort((-margin, -slow, -rank))
     chosen = flown[order[: min(_MOST_WORST, max(int(failed.sum()), 1))]]
-    address = (columns.whole(name)[chosen].tolist() for name in ("point", "level", "run"))
+    address = (columns.whole(name, chosen).tolist() for name in ("point", "level", "run"))
     return ["/".join(map(str, each)) for each in zip(*address, strict=True)]

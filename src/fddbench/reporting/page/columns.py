@@ -87,20 +87,23 @@ class Columns:
         found: npt.NDArray[np.object_] = self._known[name]
         return found
 
-    def whole(self, name: str) -> Index:
-        """Column of whole numbers without null."""
-        return self.numbers(name).astype(np.int64)
+    def whole(self, name: str, places: Index) -> Index:
+        """Some of a column of whole numbers without null."""
+        return self.numbers(name)[places].astype(np.int64)
 
     @property
     def decided(self) -> npt.NDArray[np.bool_]:
         """Rows with a score that is not undecided."""
-        return np.asarray(self.ok & (self.texts("outcome") != "undecided"), dtype=bool)
+        if "decided" not in self._known:
+            self._known["decided"] = np.asarray(self.ok & (self.texts("outcome") != "undecided"), dtype=bool)
+        found: npt.NDArray[np.bool_] = self._known["decided"]
+        return found
 
     @property
     def failed(self) -> npt.NDArray[np.bool_]:
         """Rows in which something went wrong."""
         if "failed" not in self._known:
-            self._known["failed"] = self.ok & np.isin(self.texts("outcome").astype(str), FAILED)
+            self._known["failed"] = self.ok & np.asarray(pd.Series(self.texts("outcome")).isin(FAILED), dtype=bool)
         found: npt.NDArray[np.bool_] = self._known["failed"]
         return found
 

@@ -1,6 +1,6 @@
 """What stands in each section of the page."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import pandas as pd
@@ -17,8 +17,9 @@ from fddbench.reporting.consequences import consequence_heads, consequence_lines
 from fddbench.reporting.guarantees import guarantee_lines
 from fddbench.reporting.labels import OUTCOMES
 from fddbench.reporting.page.answer import answer
-from fddbench.reporting.page.cells import cells, parts_of
+from fddbench.reporting.page.cells import Cell, cells
 from fddbench.reporting.page.columns import Columns
+from fddbench.reporting.page.convergence import convergence_scene
 from fddbench.reporting.page.courses import courses, loudest
 from fddbench.reporting.page.data import ReportData
 from fddbench.reporting.page.envelope import envelope_maps, envelope_pairs, infeasible_map
@@ -27,8 +28,10 @@ from fddbench.reporting.page.operating import operating_scenes
 from fddbench.reporting.page.payload import payload
 from fddbench.reporting.page.ranking import Rank, beside_best, ranking
 from fddbench.reporting.page.ranks import rank_lines
+from fddbench.reporting.page.requirements import requirement_lines, requirement_sentence
 from fddbench.reporting.page.traces import signal_sections
 from fddbench.reporting.reasons import REASONS
+from fddbench.reporting.references import bibliography
 
 __all__ = ["content"]
 
@@ -49,9 +52,7 @@ def content(report: ReportData) -> dict[str, Any]:
     own = cells(columns, summary, best)
     return {
         **_head(report, ranks, columns),
-        "payload": payload(
-            columns, own, {s: parts_of(columns, s) for s in range(len(columns.scenarios))}, report.folder
-        ),
+        "payload": payload(columns, own, report.folder),
         "ranks": rank_lines(ranks),
         "best": ranks[0].detector if best is not None else "",
         "detectors": list(columns.detectors),
@@ -59,7 +60,23 @@ def content(report: ReportData) -> dict[str, Any]:
         "outcomes": [(look, OUTCOMES[name]) for name, look in _LEGEND.items()],
         **_pictures(report, columns, ranks, alarms),
         **_more(report, summary),
+        "converging": [scene for line in ranks if (scene := convergence_scene(columns, line)) is not None],
+        "references": bibliography(_methods(own.values())),
     }
+
+
+def _methods(own: Iterable[Cell]) -> set[str]:
+    """Methods that the numbers of a page stand on."""
+    found = {"share", "pooled", "rate", "colours"}
+    for cell in own:
+        told = {
+            "incidence": cell.incidence,
+            "association": cell.associations,
+            "paired": cell.paired,
+            "monotone": cell.size,
+        }
+        found |= {name for name, what in told.items() if what}
+    return found
 
 
 _LEGEND = {"right": "o0", "late": "o1", "missed": "o3", "wrong_site": "o4", "false_alarm": "o5", "undecided": "o2"}
@@ -77,7 +94,8 @@ def _head(report: ReportData, ranks: Sequence[Rank], columns: Columns) -> dict[s
             ranks, _second(columns, ranks), courses=courses(columns, report.swept), loudest=loudest(columns, ranks)
         ),
         "in_sample": report.in_sample,
-        "requirements": list(report.requirements),
+        "requirements": requirement_lines(report.requirements),
+        "required": requirement_sentence(report.requirements),
     }
 
 
@@ -88,13 +106,14 @@ def _second(columns: Columns, ranks: Sequence[Rank]) -> PairedShares | None:
 
 
 _MOST_MAPS = 6
-"""Detectors of which a map of the envelope is drawn."""
+"""Maps of the envelope that are drawn, of the best detectors."""
 
 
 def _pictures(report: ReportData, columns: Columns, ranks: Sequence[Rank], alarms: pd.DataFrame) -> dict[str, Any]:
     """What is drawn below the matrix."""
     pairs = envelope_pairs(columns, report.envelope_axes, report.swept)
-    chosen = [line.number for line in ranks[:_MOST_MAPS]]
+    most = _MOST_MAPS // max(len(pairs), 1)
+    chosen = [line.number for line in ranks[:most]]
     maps = [scene for x, y in pairs if (scene := infeasible_map(columns, x, y)) is not None]
     promises = {str(d["name"]): d["promise"] for d in report.designs if d.get("promise") is not None}
     own = report.detectable if report.detectable is not None and not report.detectable.empty else None
@@ -102,7 +121,7 @@ def _pictures(report: ReportData, columns: Columns, ranks: Sequence[Rank], alarm
         "folder": report.folder,
         "operating": operating_scenes(report.operating) if report.operating is not None else [],
         "envelopes": envelope_maps(columns, pairs, chosen),
-        "more_detectors": max(len(ranks) - _MOST_MAPS, 0),
+        "more_detectors": max(len(ranks) - most, 0),
         "infeasible_maps": maps,
         "infeasible_heads": infeasible.INFEASIBLE,
         "infeasible": infeasible.infeasible_lines(report.rows, report.envelope_axes),
@@ -119,7 +138,7 @@ def _more(report: ReportData, summary: pd.DataFrame) -> dict[str, Any]:
     """What is folded away."""
     rows = report.rows
     reasons = tables.reason_lines(rows)
-    compared = [found for table in report.published if (found := beside(summary, table)) is not None]
+    compared = [found for table in report.published if (found := beside(summary, table, report.campaign)) is not None]
     return {
         "compared": compared,
         "guarantees": guarantee_lines(rows, report.events, report.designs),

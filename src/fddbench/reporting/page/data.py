@@ -59,8 +59,7 @@ class ReportData:
     reasons : sequence of lines of cells
         What was found behind the failures of a shipped campaign.
     requirements : sequence of mapping
-        What the campaign requires and whether it holds: name, verdict (pass, fail or undecided), and about in words; besides
-        share, low, high [-], flights and needed (further flights that a decision would take at the present rate).
+        What the campaign requires and whether it holds, see `fddbench.reporting.page.requirements`.
     operating : DataFrame or None
         Operating curves, lines of `fddbench.metrics.operating.OPERATING`.
     swept : sequence of str

@@ -121,7 +121,7 @@ def matrix_scene(columns: Columns, cells: Mapping[tuple[int, int], Cell]) -> Sce
     """The whole matrix as one picture."""
     lines = matrix_lines(columns, cells)
     left, step = 12.0 + 7.0 * min(max(map(len, columns.scenarios), default=8), 34), _WIDTH + 22.0
-    heads, names = shortened(columns.detectors, 24), shortened(columns.scenarios, 34)
+    heads, names = shortened(columns.detectors, 20), shortened(columns.scenarios, 34)
     marks: list[Mark] = [Text(left + step * d, 16, heads[name], bold=True) for d, name in enumerate(columns.detectors)]
     y = 30.0
     for line in lines:

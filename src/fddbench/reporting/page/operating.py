@@ -11,10 +11,11 @@ from fddbench.reporting.formats import rate
 from fddbench.reporting.svg.axes import Plot, Scale, linear, logarithmic
 from fddbench.reporting.svg.scene import Dot, Mark, Path, Scene, Text
 
-__all__ = ["operating_scene", "operating_scenes"]
+__all__ = ["MEASURES", "operating_scene", "operating_scenes"]
 
 _MOST_SCENARIOS = 12
-_MEASURES = {"missed": "missed or late [%]", "delay": "median delay [s]"}
+MEASURES = {"missed": "missed or late [%]", "delay": "median delay [s]"}
+"""What stands over false alarms per hour, in words."""
 
 
 def operating_scenes(curves: pd.DataFrame) -> list[dict[str, Any]]:
@@ -28,7 +29,7 @@ def operating_scenes(curves: pd.DataFrame) -> list[dict[str, Any]]:
     found = []
     for (design, gain, factor), own in curves.groupby(["design", "gain", "factor"], sort=False):
         scenarios = list(own["scenario"].unique())[:_MOST_SCENARIOS]
-        scenes = [operating_scene(own, str(name), measure) for name in scenarios for measure in _MEASURES]
+        scenes = [operating_scene(own, str(name), measure) for name in scenarios for measure in MEASURES]
         title = f"{design}, {'factor on ' if factor else ''}{gain}"
         found.append({"title": title, "scenes": [scene for scene in scenes if scene is not None]})
     return found
@@ -49,7 +50,7 @@ def operating_scene(curve: pd.DataFrame, scenario: str, measure: str) -> Scene |
     plot = Plot(50, 26, 290, 130, _rates(x[known]), _heights(y[known], measure))
     marks: list[Mark] = [
         Text(50, 14, scenario, bold=True),
-        *plot.frame(f"false alarms per hour{_scale(plot.x)}", _MEASURES[measure]),
+        *plot.frame(f"false alarms per hour{_scale(plot.x)}", MEASURES[measure]),
     ]
     marks.append(Path(plot.at(x[known], y[known]), "s0"))
     for i in np.flatnonzero(known).tolist():
@@ -62,7 +63,7 @@ def operating_scene(curve: pd.DataFrame, scenario: str, measure: str) -> Scene |
         marks.append(Dot(px, py, "d0", 3.0, title=said))
         if designed[i]:
             marks.append(Dot(px, py, "ci", 6.5, title=f"as designed, {said}"))
-    return Scene(352, 196, f"{_MEASURES[measure]} against false alarms per hour in {scenario}", marks)
+    return Scene(352, 196, f"{MEASURES[measure]} against false alarms per hour in {scenario}", marks)
 
 
 def _scale(x: Scale) -> str:

@@ -5,7 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from fddbench.metrics.association import Association, Parts
+from fddbench.interfaces import Floats
+from fddbench.metrics.association import Association
 from fddbench.metrics.paired import PairedShares
 from fddbench.reporting.formats import count, interval, percent, present, rate, seconds, short
 from fddbench.reporting.labels import label
@@ -13,8 +14,9 @@ from fddbench.reporting.page.cells import Cell
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.page.sizes import SizeCurve
 from fddbench.reporting.svg.axes import ticks_text
+from fddbench.reporting.svg.charts import Parted
 
-__all__ = ["ORDER", "counts_of", "part_names", "payload"]
+__all__ = ["ORDER", "counts_of", "part_names", "parted_of", "payload"]
 
 ORDER = ("right", "late", "undecided", "missed", "wrong_site", "false_alarm")
 """Outcomes of a cell in the payload; of a healthy one the first is quiet."""
@@ -28,31 +30,39 @@ def counts_of(line: Mapping[Any, Any]) -> dict[str, int]:
     return {name: int(line[name]) for name in names if present(line[name])}
 
 
-def payload(
-    columns: Columns, cells: Mapping[tuple[int, int], Cell], parts: Mapping[int, Mapping[str, Parts]], folder: str
-) -> Data:
+def payload(columns: Columns, cells: Mapping[tuple[int, int], Cell], folder: str) -> Data:
     """Everything for the script: detectors, scenarios with the names of their parts, cells row by row."""
+    n_detectors = len(columns.detectors)
     scenarios = []
     for s, name in enumerate(columns.scenarios):
-        line = next((cell.line for (i, _), cell in cells.items() if i == s), None)
-        limit = line["detection_time_limit_s"] if line is not None else None
-        own = {key: (label(key), part_names(each)) for key, each in parts.get(s, {}).items()}
-        used = sorted({a.name for (i, _), cell in cells.items() if i == s for a in cell.associations})
-        scenarios.append(
-            {"n": name, "h": int(bool(line is not None and line["healthy"])), "l": _plain(limit),
-             "m": line["pools"] if line is not None and present(line["pools"]) else "",
-             "p": {key: own[key] for key in used if key in own}}
-        )  # fmt: skip
-    return {
-        "d": list(columns.detectors), "f": folder, "s": scenarios,
-        "c": [[_cell(cells[s, d]) if (s, d) in cells else 0 for d in range(len(columns.detectors))]
-              for s in range(len(columns.scenarios))],
-    }  # fmt: skip
+        own = [cells[s, d] for d in range(n_detectors) if (s, d) in cells]
+        line = own[0].line if own else None
+        said: Data = {"n": name, "h": int(bool(line is not None and line["healthy"])), "l": None, "m": ""}
+        if line is not None:
+            said |= {"l": _plain(line["detection_time_limit_s"]), "m": line["pools"] if present(line["pools"]) else ""}
+        # parts are the same for all detectors
+        said["p"] = {a.name: (label(a.name), part_names(a.lower, a.upper)) for cell in own for a in cell.associations}
+        scenarios.append(said)
+    rows = [
+        [_cell(cells[s, d]) if (s, d) in cells else 0 for d in range(n_detectors)]
+        for s in range(len(columns.scenarios))
+    ]
+    return {"d": list(columns.detectors), "f": folder, "s": scenarios, "c": rows}
 
 
-def part_names(parts: Parts) -> list[str]:
+def part_names(low: Floats, high: Floats) -> list[str]:
     """What parts are called: their value, of a range its middle."""
-    return [ticks_text(0.5 * (low + high)) for low, high in zip(parts.low.tolist(), parts.high.tolist(), strict=True)]
+    return [ticks_text(0.5 * (a + b)) for a, b in zip(low.tolist(), high.tolist(), strict=True)]
+
+
+def parted_of(own: Association | SizeCurve) -> Parted:
+    """What parts are called, hits, flights and interval of each, as pictures take them."""
+    if isinstance(own, SizeCurve):
+        names, hits, low, high = part_names(own.low, own.high), own.right, own.share_low, own.share_high
+    else:
+        names, hits, low, high = part_names(own.lower, own.upper), own.failed.astype(np.float64), own.low, own.high
+    columns = (hits.astype(int).tolist(), own.flights.astype(int).tolist(), low.tolist(), high.tolist())
+    return list(zip(names, *columns, strict=True))
 
 
 def _cell(cell: Cell) -> Data:
@@ -114,7 +124,7 @@ def _paired(own: PairedShares, p_holm: float | None) -> list[Any]:
 
 
 def _size(own: SizeCurve) -> list[Any]:
-    names = part_names(Parts(place=np.zeros(0, dtype=np.int64), low=own.low, high=own.high))
+    names = part_names(own.low, own.high)
     answer = own.smallest
     said = ""
     if answer.relation is not None and answer.size is not None:

@@ -9,7 +9,7 @@ import pandas as pd
 
 from fddbench.metrics.clustered import PooledShare, korn_graubard
 from fddbench.metrics.paired import PairedShares, paired_shares
-from fddbench.reporting.page.columns import FAILED, Columns
+from fddbench.reporting.page.columns import Columns
 
 __all__ = ["Rank", "Weakest", "beside_best", "ranking"]
 
@@ -76,16 +76,16 @@ def ranking(
     for number, name in enumerate(columns.detectors):
         places = columns.of(number)
         own = places[columns.ok[places] & columns.faulty[places]]
-        outcome = columns.texts("outcome")[own].astype(str)
-        sure = outcome != "undecided"
-        names, counts = np.unique(outcome, return_counts=True)
+        outcome = columns.texts("outcome")[own]
+        sure = np.asarray(outcome != "undecided", dtype=bool)
+        counts = pd.Series(outcome).value_counts()
         line = of.get(name, {})
         high = line.get("alarms_high_percent")
         lines.append(
             Rank(
                 detector=name, number=number, faulty=len(own), decided=int(sure.sum()), undecided=int((~sure).sum()),
-                right=korn_graubard(outcome[sure] == "right", columns.whole("run")[own][sure]),
-                outcomes=dict(zip(names.tolist(), counts.tolist(), strict=True)),
+                right=korn_graubard(outcome[sure] == "right", columns.whole("run", own[sure])),
+                outcomes={str(each): int(n) for each, n in counts.items()},
                 distinct_flights=int(line.get("distinct_flights", 0)), alarms=int(line.get("alarms", 0)),
                 alarms_high_percent=None if high is None or pd.isna(high) else float(high),
                 weakest=_weakest(columns, own), in_sample=name in in_sample, voted=name in voted,
@@ -102,11 +102,10 @@ def _order(line: Rank) -> tuple[bool, float, float, float, int]:
 
 def _weakest(columns: Columns, own: "np.ndarray[Any, Any]") -> Weakest | None:
     """Of scenarios with equal shares that with most failures, then the first."""
-    outcome = columns.texts("outcome")[own].astype(str)
-    sure = outcome != "undecided"
+    sure = columns.decided[own]
     scenario, n = columns.scenario[own][sure], len(columns.scenarios)
     decided = np.bincount(scenario, minlength=n)
-    failed = np.bincount(scenario[np.isin(outcome[sure], FAILED)], minlength=n)
+    failed = np.bincount(scenario[columns.failed[own][sure]], minlength=n)
     if not failed.any():
         return None
     share = np.where(decided > 0, failed / np.maximum(decided, 1), -1.0)
@@ -119,13 +118,15 @@ def beside_best(columns: Columns, best: int, other: int, scenario: int | None = 
 
     The difference is that of `other` less that of `best`.
     """
+    names = ("scenario", "point", "level", "run")
     sides = []
     for number in (best, other):
         places = columns.of(number) if scenario is None else columns.cell(scenario, number)
         sure = places[columns.decided[places] & columns.faulty[places]]
-        keys = [columns.scenario[sure], *(columns.whole(name)[sure] for name in ("point", "level", "run"))]
-        right = columns.texts("outcome")[sure] == "right"
-        sides.append(pd.Series(right, index=pd.MultiIndex.from_arrays(keys)))
-    both = pd.concat(sides, axis=1, join="inner")
-    a, b = both.iloc[:, 0].to_numpy(dtype=bool), both.iloc[:, 1].to_numpy(dtype=bool)
-    return paired_shares(a, b, both.index.get_level_values(3).to_numpy())
+        keys = (columns.scenario[sure], *(columns.whole(name, sure) for name in names[1:]))
+        side = pd.DataFrame(dict(zip(names, keys, strict=True)))
+        sides.append(side.assign(right=columns.texts("outcome")[sure] == "right"))
+    both = sides[0].merge(sides[1], on=list(names), suffixes=("_a", "_b"))
+    a, b = both["right_a"].to_numpy(dtype=bool), both["right_b"].to_numpy(dtype=bool)
+    run = both["run"].to_numpy()
+    return paired_shares(a, b, run)

@@ -57,7 +57,7 @@ def size_curve(columns: Columns, sure: "np.ndarray[Any, Any]") -> SizeCurve | No
     if parts is None:
         return None
     right = columns.texts("outcome")[own] == "right"
-    _, runs = np.unique(columns.whole("run")[own], return_inverse=True)
+    _, runs = np.unique(columns.whole("run", own), return_inverse=True)
     shape = (int(runs.max()) + 1, len(parts.low))
     hits, trials = np.zeros(shape), np.zeros(shape)
     np.add.at(trials, (runs, parts.place), 1.0)
@@ -65,5 +65,5 @@ def size_curve(columns: Columns, sure: "np.ndarray[Any, Any]") -> SizeCurve | No
     low, high = pooled_intervals(hits, trials)
     return SizeCurve(
         name=names[0], low=parts.low, high=parts.high, right=hits.sum(axis=0), flights=trials.sum(axis=0),
-        share_low=low, share_high=high, smallest=smallest_found(size, right, columns.whole("run")[own]),
+        share_low=low, share_high=high, smallest=smallest_found(size, right, columns.whole("run", own)),
     )  # fmt: skip

@@ -80,7 +80,7 @@ def _onsets(recording: Recording) -> str | None:
     """When the faults begin, in words; None in healthy flights."""
     if recording.onset_s is None:
         return None
-    first, last = float(np.min(recording.onset_s)), float(np.max(recording.onset_s))
+    first, last = float(np.nanmin(recording.onset_s)), float(np.nanmax(recording.onset_s))
     return f"{first:g} s" if first == last else f"{first:g} to {last:g} s"
 
 
@@ -98,7 +98,9 @@ def _sensor_panel(recording: Recording, case: int, kept: slice) -> list[Scene]:
 
 
 def _onset(recording: Recording, case: int) -> float | None:
-    return None if recording.onset_s is None else float(recording.onset_s[case])
+    """Of one flight; None for a healthy one."""
+    onset_s = np.nan if recording.onset_s is None else float(recording.onset_s[case])
+    return None if np.isnan(onset_s) else onset_s
 
 
 def _panels(

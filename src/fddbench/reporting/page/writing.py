@@ -39,7 +39,7 @@ def rendered(template: str, filled: dict[str, Any]) -> str:
     )
     environment.filters["breakable"] = _breakable
     texts = {name: environment.loader.get_source(environment, name)[0] for name in ("style.css", "page.js")}  # type: ignore[union-attr]
-    style, script = css() + texts["style.css"], texts["page.js"]
+    style, script = (_flush(text) for text in (css() + texts["style.css"], texts["page.js"]))
     return environment.get_template(template).render(
         style=style,
         script=script,
@@ -48,6 +48,11 @@ def rendered(template: str, filled: dict[str, Any]) -> str:
         data=_json(filled.pop("payload")),
         **filled,
     )
+
+
+def _flush(text: str) -> str:
+    """Text without the spaces that begin its lines."""
+    return "\n".join(line.lstrip() for line in text.splitlines())
 
 
 def _breakable(name: str) -> Markup:

@@ -141,8 +141,8 @@ def parts_scene(parts: Parted, *, name: str, label: str, number: int = 0, what: 
             marks.append(Dot(x, y, f"d{number % 8}", title=f"{hits} of {flights}: {ends_text}"))
         x = plot.at(i + 0.5, 0.0)[0][0]
         marks += [
-            Text(x, 119, called, anchor="middle", size=10.5),
-            Text(x, 133, f"{hits}/{flights}", "ts", "middle", size=10.5),
+            Text(x, 119, called, anchor="middle", size=10),
+            Text(x, 133, f"{hits}/{flights}", "ts", "middle", size=10),
         ]
     marks.append(Text(46 + (width - 56) / 2, 149, name, anchor="middle"))
     return Scene(width, 155, label, marks)

@@ -68,7 +68,8 @@ def heat_scene(
 
 def _cell(plot: Plot, cell: HeatCell, look: str) -> list[Mark]:
     (left, bottom), (right, top) = plot.at(cell.x[0], cell.y[0])[0], plot.at(cell.x[1], cell.y[1])[0]
-    left, right, top, bottom = left + 0.7, right - 0.7, top + 0.7, bottom - 0.7
+    # whole pixels with a gap of one: half as many characters
+    left, right, top, bottom = round(left) + 1.0, round(right), round(top) + 1.0, round(bottom)
     size = right - left, bottom - top
     # pale enough for dark words on it, in light and in dark
     fill = (
@@ -78,25 +79,25 @@ def _cell(plot: Plot, cell: HeatCell, look: str) -> list[Mark]:
     )
     marks: list[Mark] = [fill]
     if cell.hatched:
-        marks += [Path(line, "ht") for line in _hatch(left, top, right, bottom)]
-    x, y = 0.5 * (left + right), 0.5 * (top + bottom)
+        marks.append(Path(_hatch(left, top, right, bottom), "ht"))
+    x, y = round(0.5 * (left + right)), round(0.5 * (top + bottom))
     wide = size[0] >= 25.0
     if wide and size[1] >= 13.0:
         two = bool(cell.below) and size[1] >= 26.0
-        marks.append(Text(x, y + (0 if two else 4), cell.text, anchor="middle", size=10.5))
+        marks.append(Text(x, y + (0 if two else 4), cell.text, anchor="middle", size=10))
         if two:
             marks.append(Text(x, y + 11, cell.below, "ts", "middle", size=9))
     return marks
 
 
-def _hatch(left: float, top: float, right: float, bottom: float, step: float = 9.0) -> list[list[Point]]:
-    """Lines from lower left to upper right inside a box."""
-    lines, at = [], left + bottom - (bottom - top) + step
-    total = right + bottom
-    while at < total:
+def _hatch(left: float, top: float, right: float, bottom: float, step: float = 9.0) -> list[Point]:
+    """Lines from lower left to upper right inside a box, one path with breaks."""
+    points: list[Point] = []
+    at = left + top + step
+    while at < right + bottom:
         # x + y = at inside the box
         x0, x1 = max(left, at - bottom), min(right, at - top)
         if x1 > x0:
-            lines.append([(x0, at - x0), (x1, at - x1)])
+            points += [(x0, at - x0), (x1, at - x1), (float("nan"), float("nan"))]
         at += step
-    return lines
+    return points

@@ -45,7 +45,7 @@ class Look:
 
 
 def _dashes(i: int) -> str:
-    """Dashes of line `i`: with its colour they come again only after 32."""
+    """Dashes of line `i`: with its colour they come again only after 16."""
     return ("", "7 3", "2 2", "8 3 2 3")[(i % SERIES + i // SERIES) % 4]
 
 
@@ -66,7 +66,7 @@ LOOKS: Mapping[str, Look] = {
     "thr": Look("ink", width=1.1, dashes="5 3"),
     "prm": Look("s1", width=1.5, dashes="7 4"),
     **{f"o{i}": Look(f"o{i}", fills=True) for i in range(6)},
-    **{f"s{i}": Look(f"s{i % SERIES}", width=2.0, dashes=_dashes(i)) for i in range(4 * SERIES)},
+    **{f"s{i}": Look(f"s{i % SERIES}", width=2.0, dashes=_dashes(i)) for i in range(2 * SERIES)},
     **{f"d{i}": Look(f"s{i}", fills=True) for i in range(SERIES)},
     **{f"b{i}": Look(f"s{i}", fills=True, opacity=0.16) for i in range(SERIES)},
     **{f"e{i}": Look(f"s{i}", width=2.0) for i in range(SERIES)},
@@ -77,7 +77,7 @@ LOOKS: Mapping[str, Look] = {
 
 def series(i: int) -> str:
     """Look of the line of detector `i`."""
-    return f"s{i % (4 * SERIES)}"
+    return f"s{i % (2 * SERIES)}"
 
 
 def band(i: int) -> str:
@@ -91,7 +91,10 @@ def css() -> str:
     rules = "".join(f"svg .{name}{{{_rule(look)}}}" for name, look in LOOKS.items())
     dots = "".join(f".sw.s{i}{{background:var(--s{i})}}" for i in range(SERIES))
     boxes = "".join(f"i.o{i}{{background:var(--o{i})}}" for i in range(6))
-    return f":root{{color-scheme:light dark;{light}}}@media(prefers-color-scheme:dark){{:root{{{dark}}}}}{rules}{dots}{boxes}"
+    words = "svg .m{text-anchor:middle}svg .e{text-anchor:end}svg .w{font-weight:700}"
+    words += "".join(f"svg .z{size}{{font-size:{size}px}}" for size in (9, 10, 11))
+    roots = f":root{{color-scheme:light dark;{light}}}@media(prefers-color-scheme:dark){{:root{{{dark}}}}}"
+    return f"{roots}{rules}{words}{dots}{boxes}"
 
 
 def _rule(look: Look) -> str:

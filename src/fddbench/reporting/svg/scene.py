@@ -159,11 +159,21 @@ def _mark(mark: Mark, *, standalone: bool) -> str:
     if isinstance(mark, Dot):
         place = f'cx="{number(mark.x)}" cy="{number(mark.y)}" r="{number(mark.radius)}"'
         return _titled(f"circle {_style(mark.look, standalone=standalone)} {place}", mark.title)
-    anchor = f' text-anchor="{mark.anchor}"' if mark.anchor != "start" else ""
+    return _text(mark, standalone=standalone)
+
+
+def _text(mark: Text, *, standalone: bool) -> str:
+    """Words: on a page their look, anchor and size are classes of one or two letters."""
     turned = f' transform="rotate(-90 {number(mark.x)} {number(mark.y)})"' if mark.turned else ""
-    look = _style(mark.look, standalone=standalone) if standalone or mark.look != "t" else ""
-    bold = ' font-weight="700"' if mark.bold else ""
-    size = f' font-size="{number(mark.size)}"' if mark.size else ""
-    return (
-        f'<text {look} x="{number(mark.x)}" y="{number(mark.y)}"{anchor}{turned}{bold}{size}>{escape(mark.text)}</text>'
-    )
+    if standalone:
+        how = _style(mark.look, standalone=True)
+        how += f' text-anchor="{mark.anchor}"' if mark.anchor != "start" else ""
+        how += ' font-weight="700"' if mark.bold else ""
+        how += f' font-size="{number(mark.size)}"' if mark.size else ""
+    else:
+        names = [mark.look] if mark.look != "t" else []
+        names += [mark.anchor[0]] if mark.anchor != "start" else []
+        names += [f"z{round(mark.size)}"] if mark.size else []
+        names += ["w"] if mark.bold else []
+        how = f'class="{" ".join(names)}"' if names else ""
+    return f'<text {how} x="{number(mark.x)}" y="{number(mark.y)}"{turned}>{escape(mark.text)}</text>'

@@ -45,11 +45,11 @@ function curve(s, d) {
       t.forEach((v, i) => { const n = i + 1 < t.length ? t[i + 1] : end; up += ` ${X(v)},${Y(hi[i] / 1000)} ${X(n)},${Y(hi[i] / 1000)}`; down = ` ${X(n)},${Y(lo[i] / 1000)} ${X(v)},${Y(lo[i] / 1000)}` + down; });
       g += `<polygon class="b${j % 8}" points="${up + down}"/>`;
     }
-    g += `<path class="s${j % 32}" d="${steps(c, k)}"/>`;
+    g += `<path class="s${j % 16}" d="${steps(c, k)}"/>`;
   });
   const me = D.c[s][d];
   if (me.i && me.i[2].some(k => k)) g += `<path class="wr" d="${steps(me, me.i[2])}"/>`;
-  const key = own.sort((p, q) => p[0] - q[0]).map(([j]) => `<li><svg viewBox="0 0 28 9" aria-hidden="true"><path class="s${j % 32}" d="M0 5h28"/></svg>${esc(D.d[j])}</li>`).join('');
+  const key = own.sort((p, q) => p[0] - q[0]).map(([j]) => `<li><svg viewBox="0 0 28 9" aria-hidden="true"><path class="s${j % 16}" d="M0 5h28"/></svg>${esc(D.d[j])}</li>`).join('');
   return `<figure><h3>Found right, by time</h3><svg viewBox="0 0 560 250" role="img" aria-label="Share of all flights found by each time">${g}</svg><ul class="key">${key}</ul><figcaption>Share of all flown flights, 95 % bands pointwise; a wrong verdict is never taken out of n. Dashed: limit.${me.i && me.i[2].some(k => k) ? ' Dotted red: a healthy site declared, here.' : ''}${me.i && me.i[5] ? ` ${me.i[5]} more lost to an alarm before the onset.` : ''} A curve ends where the first open flight ends.</figcaption></figure>`;
 }
 function parts(name, labels, k, n, lo, hi, cls, what, foot) {
@@ -61,7 +61,7 @@ function parts(name, labels, k, n, lo, hi, cls, what, foot) {
       if (lo[i] !== null) g += `<path class="e${cls}" d="M${x} ${Y(lo[i] / 100)}V${Y(hi[i] / 100)}"/>`;
       g += `<circle class="d${cls}" cx="${x}" cy="${Y(k[i] / n[i])}" r="3.5"><title>${k[i]} of ${n[i]}</title></circle>`;
     }
-    g += `<text x="${x}" y="119" font-size="10.5" text-anchor="middle">${esc(v)}</text><text class="ts" x="${x}" y="133" text-anchor="middle">${k[i]}/${n[i]}</text>`;
+    g += `<text x="${x}" y="119" class="m z10">${esc(v)}</text><text class="ts m z10" x="${x}" y="133">${k[i]}/${n[i]}</text>`;
   });
   return `<figure><svg viewBox="0 0 ${W} 155" role="img" aria-label="${esc(what + ' by ' + name)}">${g}<text x="${46 + (W - 56) / 2}" y="150" text-anchor="middle">${esc(name)}</text><text class="ts" x="11" y="56" text-anchor="middle" transform="rotate(-90 11 56)">${what}</text></svg><figcaption>${foot}</figcaption></figure>`;
 }

@@ -45,9 +45,9 @@ def checked(time_s: Floats, values: Floats, *, column: str, time: str, missing: 
     _require_finite(time_s, time, place, "remove the row")
     there = np.isfinite(values)
     if missing == "refuse":
-        _require_finite(values, column, place, "fill it, or leave such rows out of this channel with `missing: skip`")
-    elif np.isinf(values).any():
-        _require_finite(np.where(np.isnan(values), 0.0, values), column, place, "remove the row")
+        cure = "fill it, or leave such rows out of their channel with `missing: skip`"
+        _require_finite(np.where(np.isinf(values), 0.0, values), column, place, cure)
+    _require_finite(np.where(np.isnan(values), 0.0, values), column, place, "remove the row")
     rows = np.flatnonzero(there)
     if len(rows) < 2:
         raise FddbenchError(f"{place(0)}: {column} has {len(rows)} usable rows; a channel needs two or more")

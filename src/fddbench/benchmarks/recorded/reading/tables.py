@@ -41,7 +41,7 @@ class _Table:
             known = ", ".join(self.columns[:40]) + (", …" if len(self.columns) > 40 else "")
             hint = did_you_mean(column, self.columns)
             raise FddbenchError(
-                ". ".join(filter(None, [f"{self.path}: no column {column}{more}", hint, f"It has {known}"]))
+                " ".join(filter(None, [f"{self.path}: no column {column}{more}.", hint, f"It has {known}"]))
             )
 
     @cached_property

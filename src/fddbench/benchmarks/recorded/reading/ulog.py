@@ -88,5 +88,5 @@ class UlogLog:
         elif any(name == topic for name, _ in self._topics):
             known = f"{topic} has the instances {', '.join(str(j) for name, j in self._topics if name == topic)}"
         else:
-            known = f"it has the topics {', '.join(dict.fromkeys(name for name, _ in self._topics)) or 'none'}"
-        raise FddbenchError(". ".join(filter(None, [f"{self.path}: no channel {column}", hint, known])))
+            known = f"It has the topics {', '.join(dict.fromkeys(name for name, _ in self._topics)) or 'none'}"
+        raise FddbenchError(" ".join(filter(None, [f"{self.path}: no channel {column}.", hint, known])))

@@ -1,0 +1,49 @@
+"""Gathers what the page of several folders of results shows."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from fddbench.api.comparing import compare
+from fddbench.errors import FddbenchError
+from fddbench.metrics.alarms import summarize_alarms
+from fddbench.reporting.page.answer import answer
+from fddbench.reporting.page.columns import NEEDS, Columns
+from fddbench.reporting.page.comparison import ComparedFolder, Comparison
+from fddbench.reporting.page.ranking import beside_best, ranking
+from fddbench.reporting.page.ranks import rank_lines
+from fddbench.results.table import read_rows
+from fddbench.results.whole import holdings
+from fddbench.runner.fingerprint import frozen
+
+__all__ = ["comparison_data"]
+
+
+def comparison_data(folders: Sequence[Path]) -> Comparison:
+    """Each folder by itself, and every other one beside the first on the flights that both hold.
+
+    Raises
+    ------
+    FddbenchError
+        One is no folder of results, or is damaged.
+    """
+    own = [_folder(path) for path in folders]
+    tables, reasons = [], []
+    for path in folders[1:]:
+        try:
+            tables.append((path.as_posix(), compare(folders[0], path)))
+        except FddbenchError as error:
+            reasons.append(str(error))
+    return Comparison(folders=own, tables=tables, reasons=reasons)
+
+
+def _folder(path: Path) -> ComparedFolder:
+    campaign, found = frozen(path), holdings(path)
+    rows = read_rows(path, list(NEEDS))
+    columns = Columns(rows)
+    ranks = ranking(columns, summarize_alarms(rows, in_sample=campaign.in_sample), in_sample=campaign.in_sample)
+    known = [line for line in ranks if line.decided]
+    second = beside_best(columns, known[0].number, known[1].number) if len(known) > 1 else None
+    return ComparedFolder(
+        folder=path.as_posix(), campaign=campaign.name, about=campaign.about, partial=found.sentence if found.partial else "",
+        answer=answer(ranks, second), ranks=rank_lines(ranks),
+    )  # fmt: skip

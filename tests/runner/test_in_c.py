@@ -1,0 +1,182 @@
+"""Detectors in the loop as compiled C: the same rows, and code that was not written here in a process of its own."""
+
+import json
+import re
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+import yaml
+
+import fddbench
+from fddbench import gallery
+from fddbench.campaign.load import read_campaign
+from fddbench.errors import CampaignError, FddbenchError
+from fddbench.exported.child import Child, main_text
+from fddbench.exported.compiling import built, compiler
+from fddbench.exported.flown_c import FlownC
+from fddbench.exported.interface import interface_of
+from fddbench.runner.assembling import assemble
+
+FAST = ["dispersions.monte_carlo.runs=1", "duration_s=11.0"]
+
+
+def rows_of(folder):
+    """All rows, flights in order."""
+    rows = pa.concat_tables([pq.read_table(path) for path in sorted((folder / "rows").glob("*.parquet"))])
+    keys = [(name, "ascending") for name in ("scenario", "point", "level", "run", "detector")]
+    return rows.sort_by(keys).replace_schema_metadata(None).combine_chunks()
+
+
+def flown(where, campaign, *overrides, **how):
+    fddbench.run(read_campaign(campaign, overrides), where, jobs=1, notice=lambda _: None, **how)
+    return rows_of(where)
+
+
+def shipped(name):
+    return gallery.folder("campaigns") / f"{name}.yaml"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("campaign", "overrides"),
+    [
+        ("smoke", []),
+        ("yaw_rate_table8", ["dispersions.monte_carlo.runs=1", "detectors=[sliding_mode_published]"]),
+        ("jet_engine_monte_carlo", ["dispersions.monte_carlo.runs=1", "detectors=[hinf_start]"]),
+        ("b747_monte_carlo", ["dispersions.monte_carlo.runs=1", "detectors=[lpv_filter_envelope]"]),
+    ],
+)
+def test_rows_are_equal_bit_for_bit(campaign, overrides, tmp_path):
+    path = shipped(campaign)
+    own = read_campaign(path, overrides[:1] if overrides else [])
+    entries = [
+        f"scenarios.{n}.runs={overrides[0].split('=')[1]}"
+        for n, s in enumerate(own.scenarios)
+        if overrides and s.entry.runs
+    ]
+    wanted = flown(tmp_path / "engine", path, *overrides, *entries)
+    found = flown(tmp_path / "c", path, *overrides, *entries, compiled_as="c")
+    assert found.equals(wanted)
+    said = json.loads((tmp_path / "c" / "provenance.json").read_text())["flown_as_c"]
+    assert all("-ffp-contract=off" in each for each in said.values())
+
+
+@pytest.mark.slow
+def test_sanitizers_find_nothing_over_the_smoke_campaign(tmp_path, monkeypatch):
+    sanitizers = "-g -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all"
+    wanted = flown(tmp_path / "engine", shipped("smoke"), *FAST)
+    monkeypatch.setenv("CFLAGS", sanitizers)
+    compiler.cache_clear()
+    try:
+        assert flown(tmp_path / "c", shipped("smoke"), *FAST, compiled_as="c").equals(wanted)
+    finally:
+        compiler.cache_clear()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf, 1e308])
+def test_inputs_that_are_no_numbers_do_what_the_header_says(bad):
+    """Nothing breaks but the numbers; the engine makes the same bits, and init begins anew."""
+    assembly = assemble(read_campaign(shipped("smoke")))
+    own, bus = assembly.detectors["sliding_mode_published"], assembly.loop.bus
+    interface = interface_of(own, bus, name="sliding_mode_published")
+    from fddbench.exported.code import sources
+
+    files = sources(interface, own.detector) | {"flown.c": main_text(interface.name)}
+    sanitized = compiler("", ("-fsanitize=undefined,float-cast-overflow", "-fno-sanitize-recover=all"))
+    code = FlownC(interface, Child(built(files, sanitized)))
+    calm = {m.source: np.ones((m.size, 1)) for m in interface.inputs}
+    state, begun = code.start[:, np.newaxis], code.start.copy()
+    for number, signal in enumerate(calm):
+        upset = calm | {signal: np.full_like(calm[signal], bad)}
+        after, _ = code.step(state, upset)
+        for _ in range(3):
+            after, given = code.step(after, calm)
+        assert all(len(rows) for rows in given.values()), number
+    assert np.array_equal(FlownC(interface, Child(built(files, sanitized))).start, begun)
+
+
+def own_files(folder, source):
+    """A campaign of a design whose code is somebody else's, made of the exported files and a change of the source."""
+    (folder / "detectors").mkdir(exist_ok=True)
+    fddbench.export("voting_monitor", folder / "detectors" / "supplier", force=True)
+    code = folder / "detectors" / "supplier" / "voting_monitor.c"
+    code.write_text(source(code.read_text()))
+    design = (gallery.folder("detectors") / "voting_monitor.yaml").read_text()
+    (folder / "detectors" / "supplied.yaml").write_text(
+        re.sub("^kind:", "code: supplier\nkind:", design, flags=re.MULTILINE)
+    )
+    data = yaml.safe_load(shipped("smoke").read_text())
+    data |= {"name": "own", "detectors": ["supplied", "voting_monitor"]}
+    data["scenarios"] = [each for each in data["scenarios"] if each["name"] in {"healthy", "runaway_a"}]
+    (folder / "own.yaml").write_text(yaml.safe_dump(data))
+    return folder / "own.yaml"
+
+
+@pytest.mark.slow
+def test_foreign_code_flies_in_place_of_the_design(tmp_path):
+    rows = flown(tmp_path / "results", own_files(tmp_path, lambda text: text), *FAST).to_pandas()
+    own, theirs = (
+        rows[rows.detector == name].drop(columns="detector").reset_index(drop=True)
+        for name in ("voting_monitor", "supplied")
+    )
+    assert own.equals(theirs)
+    assert (tmp_path / "results" / "detectors" / "supplier" / "voting_monitor.c").is_file()
+
+
+@pytest.mark.slow
+def test_foreign_code_that_crashes_takes_only_its_own_rows(tmp_path):
+    crash = "    if (in->r_deg_s[0U] > 5.0) { volatile int *p = 0; *p = 1; }\n    voting_monitor(in, x, &s);"
+    campaign = own_files(tmp_path, lambda text: text.replace("    voting_monitor(in, x, &s);", crash))
+    rows = flown(tmp_path / "results", campaign, *FAST).to_pandas()
+    failed = rows[rows.status == "error"]
+    assert len(failed) == 1
+    assert set(failed.detector) == {"supplied"}
+    assert failed.reason.str.contains("the code crashed: SIGSEGV").all()
+
+
+@pytest.mark.slow
+def test_foreign_code_that_keeps_something_outside_its_state_is_refused(tmp_path):
+    count = "    { static double seen = 0.0; seen = seen + 1.0; x->declared[0U] = (seen > 1500.0) ? 1.0 : x->declared[0U]; }\n"
+    campaign = own_files(
+        tmp_path, lambda text: text.replace("    voting_monitor(in, x, &s);", count + "    voting_monitor(in, x, &s);")
+    )
+    with pytest.raises(FddbenchError, match="supplied gives another verdict when a flight is flown again"):
+        flown(tmp_path / "results", campaign, *FAST)
+
+
+@pytest.mark.slow
+def test_foreign_code_that_does_not_compile_is_refused_where_the_campaign_names_it(tmp_path):
+    campaign = own_files(tmp_path, lambda _: "int broken(")
+    with pytest.raises(CampaignError, match=r"own\.yaml:\d+:\d+: design 'supplied', code supplier: .* refuses"):
+        assemble(read_campaign(campaign))
+
+
+def test_a_flag_that_changes_bits_is_refused():
+    with pytest.raises(FddbenchError, match="-ffast-math would change the bits of a flight"):
+        compiler("true", ("-ffast-math",))
+    with pytest.raises(FddbenchError, match="-ffp-contract=fast would change the bits"):
+        compiler("true", ("-ffp-contract=fast",))
+
+
+def test_a_compiler_that_is_missing_is_named():
+    with pytest.raises(FddbenchError, match="no compiler 'nocc' is here; install one"):
+        compiler("nocc")
+
+
+def test_symbols_of_a_campaign_refuse_what_needs_more(tmp_path):
+    text = (
+        shipped("smoke")
+        .read_text()
+        .replace("\ndetectors:", "\nsymbols: [add, sub, abs, max, compare, logic, switch]\ndetectors:")
+    )
+    (tmp_path / "own.yaml").write_text(text)
+    before = read_campaign(shipped("smoke"))
+    own = read_campaign(tmp_path / "own.yaml")
+    assert own.sha256 == before.sha256  # they decide no row
+    with pytest.raises(CampaignError, match="sliding_mode_published needs more than the symbols") as caught:
+        assemble(own)
+    assert "sin, 1 times: detector.py:" in str(caught.value)
+    assert "48 states, at most 0 (delay)" in str(caught.value)
