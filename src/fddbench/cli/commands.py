@@ -6,6 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from fddbench.cli.outputs import require_writable
 from fddbench.cli.requiring import all_pass, refuse_unstated, until_decided, write_ci
 from fddbench.errors import FddbenchError
 
@@ -164,6 +165,10 @@ def report(args: argparse.Namespace) -> int:
     """
     from fddbench.api.pages import report as write
 
+    if args.output is not None:
+        if args.output.suffix.lower() not in {".html", ".htm"}:
+            raise FddbenchError(f"{args.output}: the page is HTML; let the name of the file end in .html")
+        require_writable(args.output, "--output")
     print(write(args.folders or None, args.output, replay=not args.no_replay))
     return 0
 

@@ -3,6 +3,7 @@
 import argparse
 import sys
 
+from fddbench.cli.outputs import require_writable
 from fddbench.errors import FddbenchError
 
 __all__ = ["replay", "verify", "worst"]
@@ -23,6 +24,11 @@ def replay(args: argparse.Namespace) -> int:
         require_picture(args.plot)
     if args.to:
         require_format(args.to)
+    if args.signal and not args.plot:
+        raise FddbenchError("--signal names what --plot FILE draws; give both")
+    for path, option in ((args.plot, "--plot"), (args.to, "--to")):
+        if path:
+            require_writable(path, option)
     if "/" not in args.case:
         raise FddbenchError(f"a flight is named as in the column case, jam_a/3/0/17, got {args.case!r}")
     recording = fly(args.source, args.case, args.detector)
@@ -72,6 +78,8 @@ def verify(args: argparse.Namespace) -> int:
     """
     from fddbench.api.verifying import verify as verified
 
+    if args.seed is not None and not args.refly:
+        raise FddbenchError("--seed is of the draw of the flights that --refly N flies again; give both")
     found = verified(
         args.folder, refly=args.refly, seed=args.seed, notice=lambda text: print(f"fddbench: {text}", file=sys.stderr)
     )
