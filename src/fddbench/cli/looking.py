@@ -16,19 +16,11 @@ def replay(args: argparse.Namespace) -> int:
     every sample, with their units in their names.
     """
     from fddbench.api.replaying import replay as fly
-    from fddbench.api.replaying import require_format, shown_in, write_table
+    from fddbench.api.replaying import shown_in, write_table
     from fddbench.reporting.declarations import declarations
-    from fddbench.reporting.flight_picture import require_picture, write_picture
+    from fddbench.reporting.flight_picture import write_picture
 
-    if args.plot:
-        require_picture(args.plot)
-    if args.to:
-        require_format(args.to)
-    if args.signal and not args.plot:
-        raise FddbenchError("--signal names what --plot FILE draws; give both")
-    for path, option in ((args.plot, "--plot"), (args.to, "--to")):
-        if path:
-            require_writable(path, option)
+    _require_outputs(args)
     if "/" not in args.case:
         raise FddbenchError(f"a flight is named as in the column case, jam_a/3/0/17, got {args.case!r}")
     recording = fly(args.source, args.case, args.detector)
@@ -46,6 +38,19 @@ def replay(args: argparse.Namespace) -> int:
     for path in filter(None, (args.plot, args.to)):
         print(path)
     return 0
+
+
+def _require_outputs(args: argparse.Namespace) -> None:
+    """Refuse files that could not be written, before anything flies."""
+    from fddbench.api.replaying import require_format
+    from fddbench.reporting.flight_picture import require_picture
+
+    if args.signal and not args.plot:
+        raise FddbenchError("--signal names what --plot FILE draws; give both")
+    for path, option, require in ((args.plot, "--plot", require_picture), (args.to, "--to", require_format)):
+        if path:
+            require(path)
+            require_writable(path, option)
 
 
 def worst(args: argparse.Namespace) -> int:

@@ -23,7 +23,7 @@ from fddbench.errors import FddbenchError, ResultsWarning
 __all__ = ["entry", "main", "parser"]
 
 _INTERRUPTED, _TERMINATED, _DISK = 130, 143, 74
-_CURES = {PermissionError: "change its permissions, or name another file or folder"}
+_PERMISSION = "change its permissions, or name another file or folder"
 _DISK_ERRORS = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS}
 
 
@@ -56,7 +56,8 @@ def main(argv: list[str] | None = None) -> int:
     except OSError as error:
         place = f"{error.filename}: " if error.filename else ""
         disk = error.errno in _DISK_ERRORS
-        cure = "what is finished is kept, run again" if disk else _CURES.get(type(error), "name another file or folder")
+        other = _PERMISSION if isinstance(error, PermissionError) else "name another file or folder"
+        cure = "what is finished is kept, run again" if disk else other
         print(f"fddbench: {place}{error.strerror or error}; {cure}", file=sys.stderr)
         return _DISK if disk else 2
     except KeyboardInterrupt:
