@@ -57,6 +57,14 @@ schemas: $(VENV)/ready
 	for path in campaigns/schema/*.json; do name=$$(basename $$path .json); \
 	  $(BIN)/fddbench schema $$name --output campaigns/schema/$$name.json || exit 1; done
 
+# the documentation as a site in site/, without a network; a test builds it too
+docs: $(VENV)/ready-docs
+	NO_MKDOCS_2_WARNING=1 DISABLE_MKDOCS_2_WARNING=true $(BIN)/mkdocs build --quiet
+
+$(VENV)/ready-docs: $(VENV)/ready
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[docs]"
+	touch $@
+
 # how fast the engine is beside others, on a machine that does nothing else
 bench: $(VENV)/ready-bench
 	$(BIN)/python -m tests.bench
@@ -78,4 +86,4 @@ $(VENV)/ready-bench: $(VENV)/ready
 	touch $@
 
 clean:
-	rm -rf $(VENV) results dist build .mypy_cache .ruff_cache .pytest_cache .hypothesis
+	rm -rf $(VENV) results dist build site .mypy_cache .ruff_cache .pytest_cache .hypothesis

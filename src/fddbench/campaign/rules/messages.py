@@ -21,11 +21,15 @@ _TAGS = ("name", "matrices", "swept", "values", "sweep")
 
 def allowed_keys(model: type[BaseModel], address: Address) -> tuple[str, ...]:
     """Keys of the block at an address within a model; empty where it is no block."""
-    found = _model_in(model)
+    found, named = _model_in(model), False
     for part in address:
         if found is None or isinstance(part, int):
             continue
+        if named:  # a name of the file's own, in a mapping of names to blocks
+            named = False
+            continue
         entry = _keyed(found).get(part)
+        named = entry is not None and typing.get_origin(entry.annotation) is dict
         found = _model_of(entry) if entry else _model_in(extra_hint(found))
     return tuple(_keyed(found)) if found else ()
 

@@ -1,0 +1,105 @@
+"""What the documentation says to type is typed, page by page, in a folder of its own; the site builds and is whole."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import fddbench
+from fddbench import gallery, kinds
+from fddbench.cli.main import parser
+
+ROOT = Path(__file__).parents[2]
+PAGES = sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "docs").rglob("*.md"))
+BLOCK = re.compile(r'^```(sh|python|yaml)(?: title="([^"]+)")?\n(.*?)^```', flags=re.MULTILINE | re.DOTALL)
+NOT_HERE = {"make demo": "run by .ci/run", "make test": "is this run"}
+"""Commands that no page test types, and why."""
+
+
+def _blocks(page):
+    return [(m[1], m[2], m[3]) for m in BLOCK.finditer((ROOT / page).read_text(encoding="utf-8"))]
+
+
+def _commands(text):
+    return [line for line in text.splitlines() if line.strip() and line.split("  #")[0].strip() not in NOT_HERE]
+
+
+def _environment(folder):
+    """The commands of this installation first, and nobody's cache of trust."""
+    bin_ = folder / ".bin"
+    bin_.mkdir()
+    for name, code in (("fddbench", "from fddbench.cli import entry; entry()"), ("python", None)):
+        run = f'exec "{sys.executable}" "$@"' if code is None else f'exec "{sys.executable}" -c "{code}" "$@"'
+        (bin_ / name).write_text(f"#!/bin/sh\n{run}\n")
+        (bin_ / name).chmod(0o755)
+    return os.environ | {"PATH": f"{bin_}{os.pathsep}{os.environ['PATH']}", "NO_COLOR": "1"}
+
+
+def _typed(page, folder):
+    """Type a page: shell blocks one after the other in one shell's folder, Python blocks in one program each."""
+    environment, here = _environment(folder), folder
+    for language, title, text in _blocks(page):
+        if language == "yaml":
+            if title:
+                (here / title).parent.mkdir(parents=True, exist_ok=True)
+                (here / title).write_text(text, encoding="utf-8")
+            continue
+        if language == "sh":
+            script = "set -e\n" + "\n".join(_commands(text)) + "\npwd > .where\n" + f'cp .where "{folder}/.last"\n'
+            command = ["bash", "-c", script]
+        else:
+            command = [sys.executable, "-W", "error::DeprecationWarning:__main__", "-c", text]
+        done = subprocess.run(command, cwd=here, env=environment, capture_output=True, text=True, timeout=600)
+        assert done.returncode == 0, f"{page}:\n{text}\n{done.stdout[-2000:]}\n{done.stderr[-3000:]}"
+        assert "Traceback" not in done.stderr
+        if language == "sh":
+            here = Path((folder / ".last").read_text().strip())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", [*PAGES, "README.md", "CONTRIBUTING.md"])
+def test_what_a_page_says_to_type_works(page, tmp_path):
+    if page == "README.md":  # its Python looks at the results of a larger campaign
+        fddbench.run("b747_monte_carlo", tmp_path / "results" / "b747_monte_carlo")
+    _typed(page, tmp_path)
+
+
+def test_every_command_is_typed_somewhere():
+    typed = {line.split()[1] for _, _, block in _blocks("docs/commands.md") for line in block.splitlines() if line}
+    (action,) = parser()._subparsers._group_actions
+    assert set(action.choices) - typed == set()
+
+
+def test_the_first_hour_has_at_most_fifteen_commands():
+    lines = [
+        line for language, _, text in _blocks("docs/first_hour.md") if language == "sh" for line in text.splitlines()
+    ]
+    assert len([line for line in lines if line.strip()]) <= 15
+
+
+@pytest.mark.slow
+def test_the_site_builds_without_a_network_and_shows_every_member(tmp_path):
+    quiet = {"NO_MKDOCS_2_WARNING": "1", "DISABLE_MKDOCS_2_WARNING": "true"}
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", str(tmp_path / "site")]
+    done = subprocess.run(command, cwd=ROOT, env=os.environ | quiet, capture_output=True, text=True, timeout=600)
+    assert done.returncode == 0, done.stderr[-3000:]
+    pages = {path.stem: path.read_text(encoding="utf-8") for path in (tmp_path / "site" / "families").glob("*.html")}
+    for family, page in (
+        ("benchmark", "benchmarks"),
+        ("fault", "faults"),
+        ("detector", "detectors"),
+        ("recipe", "recipes"),
+    ):
+        for name in kinds.known(family):
+            assert f'id="{name}"' in pages[page], f"{family} {name} stands on no page"
+    for path in gallery.folder("campaigns").glob("*.yaml"):
+        assert f'id="{path.stem}"' in pages["gallery"]
+    for name in fddbench.__all__:
+        assert name == "__version__" or name in pages["python"]
+    fetched = re.findall(
+        r'(?:src|href)="(https?://[^"]+)"[^>]*(?:rel="stylesheet"|></script>)', "".join(pages.values())
+    )
+    assert fetched == []
