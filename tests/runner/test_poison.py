@@ -151,6 +151,7 @@ def require_harm_alone(rows, name):
     assert status == "ok" or reason in own["reason"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", QUICK)
 def test_harm_is_a_row_of_its_own_flight_alone(flown, name):
     require_harm_alone(flown[0], name)
@@ -164,6 +165,7 @@ def test_all_other_harm_is_a_row_of_its_own_flight_alone(tmp_path):
         require_harm_alone(rows, name)
 
 
+@pytest.mark.slow
 def test_nothing_of_the_truth_is_in_the_memory_of_a_detector(flown):
     """In the process that flies, the batch with all onsets, the plan and the campaign are objects that anybody finds."""
     rows, _ = flown
@@ -172,6 +174,7 @@ def test_nothing_of_the_truth_is_in_the_memory_of_a_detector(flown):
     assert set(mine["margin_faulty"]) == {0.0}
 
 
+@pytest.mark.slow
 def test_what_a_detector_prints_is_cut_short(flown):
     assert flown[1] < 20_000
 

@@ -138,6 +138,8 @@ def _pairs(first: pd.DataFrame, second: pd.DataFrame, wanted: Sequence[str], *, 
         return both
     if len(wanted) != 2:
         raise FddbenchError(f"compare two detectors, got {len(wanted)}: {', '.join(wanted)}")
+    if own and wanted[0] == wanted[1]:
+        raise FddbenchError(f"{wanted[0]} is the same as itself; name two detectors, or give a second folder")
     for name, names in zip(wanted, known, strict=True):
         if name not in names:
             raise FddbenchError(f"no detector is called {name!r} there; known: {', '.join(names)}")

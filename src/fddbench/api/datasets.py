@@ -25,6 +25,7 @@ from fddbench.units import unit_of_name
 
 __all__ = ["dataset"]
 
+_LONGEST_S = 86_400.0
 _LEAST_RUNS, _VALIDATION = 5, 4
 """Runs that can be split; of five the last is for validation."""
 _TYPES = {"float32": pa.float32(), "float64": pa.float64()}
@@ -86,6 +87,8 @@ def _every(campaign: Campaign, rate_hz: float) -> int:
             f"rate = {rate_hz:g} Hz; the clock of the campaign has {clock_hz:g} Hz, so 0 < rate <= {clock_hz:g}"
         )
     exact = clock_hz / rate_hz
+    if exact > _LONGEST_S * clock_hz:
+        raise FddbenchError(f"rate = {rate_hz:g} Hz is less than one sample a day; e.g. --rate {clock_hz / 10:g}")
     every = round(exact)
     if abs(exact - every) > 1e-9 * exact:
         near = sorted({clock_hz / n for n in (math.floor(exact), math.ceil(exact))}, reverse=True)

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pyarrow as pa
+from pandas.api.types import is_bool_dtype, is_numeric_dtype
 
 from fddbench.errors import FddbenchError, did_you_mean
 from fddbench.metrics.detection_curve import LEAST, detection_curve
@@ -59,8 +60,10 @@ def pod(folder: str | Path, size: str = "") -> pd.DataFrame:
     if size and size not in rows.columns:
         hint = did_you_mean(size, sizes)
         raise FddbenchError(
-            " ".join(filter(None, [f"the rows have no column {size!r}.", hint, f"Sizes: {', '.join(sizes)}"]))
+            " ".join(filter(None, [f"the rows have no column {size!r}.", hint, f"Sizes: {', '.join(sizes) or 'none'}"]))
         )
+    if size and (not is_numeric_dtype(rows[size]) or is_bool_dtype(rows[size])):
+        raise FddbenchError(f"the column {size!r} holds no numbers. Sizes: {', '.join(sizes) or 'none'}")
     chosen = [size] if size else [name for name in sizes if not name.endswith("_s") or name.endswith(_RATES)]
     flown = flown_of(rows)
     lines = [

@@ -101,7 +101,8 @@ def write(files: Mapping[str, str], folder: Path, *, force: bool = False) -> Non
         for name, text in files.items():
             (folder / name).write_text(text, encoding="utf-8", newline="\n")
     except (OSError, UnicodeDecodeError) as error:
-        raise DesignError(f"{folder} cannot be written: {error}") from error
+        said = error.strerror if isinstance(error, OSError) and error.strerror else error
+        raise DesignError(f"{folder} cannot be written: {said}; choose another folder with --output") from error
 
 
 def _about(design: Design, interface: Interface, campaign: str) -> list[str]:

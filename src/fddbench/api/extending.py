@@ -14,7 +14,7 @@ from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.reading.canonical import canonical_text
 from fddbench.designs.design import Design, read_design
 from fddbench.designs.finding import find_design
-from fddbench.errors import FddbenchError, ResultsError, did_you_mean
+from fddbench.errors import CampaignError, FddbenchError, ResultsError, did_you_mean
 from fddbench.results.folder import changed_files, provenance_of
 from fddbench.results.shards import file_sha256
 from fddbench.results.stages import stages_in
@@ -122,7 +122,10 @@ def _larger(
     for name, text in files.items():
         (aside / name).parent.mkdir(parents=True, exist_ok=True)
         (aside / name).write_bytes(text)
-    return read_campaign(aside / "campaign.yaml")
+    try:
+        return read_campaign(aside / "campaign.yaml")
+    except CampaignError as error:  # places in a file that nobody has seen
+        raise FddbenchError(str(error).replace(f"{aside}/", "the larger campaign, ")) from error
 
 
 def _scenarios(given: Campaign, wanted: Sequence[str]) -> list[dict[str, Any]]:
@@ -130,7 +133,8 @@ def _scenarios(given: Campaign, wanted: Sequence[str]) -> list[dict[str, Any]]:
     for name in wanted:
         if name not in entries:
             hint = did_you_mean(name, entries)
-            raise FddbenchError(f"{given.path} has no scenario {name!r}. {hint} It has: {', '.join(entries)}")
+            parts = [f"{given.path} has no scenario {name!r}.", hint, f"It has: {', '.join(entries)}"]
+            raise FddbenchError(" ".join(filter(None, parts)))
     return [entries[name] for name in wanted]
 
 

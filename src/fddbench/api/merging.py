@@ -1,6 +1,7 @@
 """Several folders of results as one: parts of a campaign that flew on several machines, or that grew apart."""
 
 from collections.abc import Sequence
+from os.path import realpath
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -46,10 +47,11 @@ def merge(folders: Sequence[str | Path], output: str | Path) -> Holdings:
     paths = [part for path in given for part in (share_folders(path) if path in planned else [path])]
     if planned and not paths:
         raise FddbenchError(f"no shard of {planned[0]} was flown; fddbench shard 1 {planned[0]}")
-    if not planned and len({path.resolve() for path in paths}) < 2:
+    places = {realpath(path) for path in paths}  # unlike resolve, it takes links in a circle
+    if not planned and len(places) < 2:
         raise FddbenchError("two different folders of results at least; one alone is merged already")
     out = Path(output)
-    if out.resolve() in {path.resolve() for path in paths}:
+    if realpath(out) in places:
         raise FddbenchError(f"{out} is one of the folders to merge; name a new one with --output")
     read: dict[tuple[str, str], Campaign] = {}
     parts: dict[Path, Campaign] = {}

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Mapping
+from keyword import kwlist
 from pathlib import Path
 from shutil import copyfile
 
@@ -46,6 +47,7 @@ _RECORDED = {
 """What ``--benchmark recorded`` writes: no benchmark of one's own, but logs, which may be exchanged for others."""
 
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
+_NO_NAMES = {*kwlist, "true", "false", "null", "yes", "no", "on", "off", "y", "n"}
 
 
 def start(folder: Path, what: str, name: str) -> list[Path]:
@@ -56,14 +58,18 @@ def start(folder: Path, what: str, name: str) -> list[Path]:
     FddbenchError
         The name is none, or a file is there already; then nothing is written.
     """
-    if not _NAME.fullmatch(name):
+    if not _NAME.fullmatch(name) or name in _NO_NAMES:
         raise FddbenchError(
-            f"{name!r} is no name for a {what}: small letters, digits and _, a letter first, at most 40, as in "
-            f"my_{what}"
+            f"{name!r} is no name for a {what}: small letters, digits and _, a letter first, at most 40, no word "
+            f"of YAML or Python (true, null, class), as in my_{what}"
         )
     if what in {"detector", "trained"} and (gallery.folder("detectors") / f"{name}.yaml").is_file():
         raise FddbenchError(
             f"a shipped design is called {name!r}; choose another name, so that nobody takes one for the other"
+        )
+    if what == "campaign" and (gallery.folder("campaigns") / f"{name}.yaml").is_file():
+        raise FddbenchError(
+            f"a shipped campaign is called {name!r}; choose another name, so that nobody takes one for the other"
         )
     sources = _RECORDED if (what, name) == ("benchmark", "recorded") else STARTERS[what]
     texts = {folder / path.replace("NAME", name): _text(source, name) for path, source in sources.items()}

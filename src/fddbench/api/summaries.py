@@ -21,6 +21,7 @@ from fddbench.results import table
 __all__ = ["FORMATS", "summary", "written"]
 
 _BINS, _FEW = 5, 12
+_ALWAYS = ("scenario", "detector")
 
 
 def summary(folder: str | Path, by: str | Sequence[str] = (), *, bins: int = _BINS) -> pd.DataFrame:
@@ -47,7 +48,8 @@ def summary(folder: str | Path, by: str | Sequence[str] = (), *, bins: int = _BI
     --------
     >>> summary("results/yaw_rate_gusts", by="p_gust_scale_ratio")  # doctest: +SKIP
     """
-    columns = [by] if isinstance(by, str) else list(dict.fromkeys(by))
+    asked = [by] if isinstance(by, str) else list(dict.fromkeys(by))
+    columns = [name for name in asked if name not in _ALWAYS]
     if bins < 2:
         raise FddbenchError(f"bins = {bins}: at least 2 parts")
     own = in_sample(folder)
@@ -128,7 +130,8 @@ def written(folder: str | Path, how: str, *, by: str | Sequence[str] = ()) -> by
     """
     if how not in FORMATS:
         raise FddbenchError(f"no table is written as {how!r}; known: {', '.join(FORMATS)}")
-    return FORMATS[how](summary(folder, by), [by] if isinstance(by, str) else list(by))
+    columns = [by] if isinstance(by, str) else list(dict.fromkeys(by))
+    return FORMATS[how](summary(folder, by), [name for name in columns if name not in _ALWAYS])
 
 
 def _csv(lines: pd.DataFrame, by: Sequence[str]) -> bytes:

@@ -28,10 +28,17 @@ def find_campaign(path: Path) -> Path:
     bare = path.name.removesuffix(".yaml")
     if path.parent == Path() and bare in shipped:
         return shipped[bare]
-    what = "is a folder; give the campaign.yaml in it" if path.is_dir() else "no such file."
+    what = _folder(path) if path.is_dir() else "no such file."
     hint = "" if path.is_dir() else did_you_mean(bare, shipped)
     names = f"Shipped campaigns: {', '.join(sorted(shipped)) or 'none'}"
     raise CampaignError((Mistake(str(path), " ".join(filter(None, [what, hint, "" if path.is_dir() else names]))),))
+
+
+def _folder(path: Path) -> str:
+    """What to give instead of a folder."""
+    if (path / "campaign.yaml").is_file():
+        return "is a folder; give the campaign.yaml in it"
+    return "is a folder, with no results of `fddbench run` and no campaign.yaml in it; give the file of a campaign"
 
 
 def document_of(path: Path) -> Document:

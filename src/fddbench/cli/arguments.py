@@ -4,7 +4,18 @@ import argparse
 from pathlib import Path
 
 from fddbench import __version__
-from fddbench.cli import aircraft, commands, completing, counting, data_sets, designing, exporting, looking, requiring
+from fddbench.cli import (
+    aircraft,
+    asking,
+    commands,
+    completing,
+    counting,
+    data_sets,
+    designing,
+    exporting,
+    looking,
+    requiring,
+)
 from fddbench.cli.added import add
 from fddbench.cli.checked_numbers import flights as _flights
 from fddbench.cli.checked_numbers import probability as _probability
@@ -125,12 +136,12 @@ def _counting(subs) -> None:  # type: ignore[no-untyped-def]
 
 def _asking(subs) -> None:  # type: ignore[no-untyped-def]
     """Commands that tell what there is, and that give something to start from."""
-    ask = add(subs, "list", commands.list_)
+    ask = add(subs, "list", asking.list_)
     ask.add_argument(
         "subject", nargs="?", default="", metavar="SUBJECT",
         help="name of a benchmark, or benchmarks, faults, voters, detectors, campaigns, designs (default: everything)",
     )  # fmt: skip
-    init = add(subs, "init", commands.init)
+    init = add(subs, "init", asking.init)
     init.add_argument("folder", type=Path, nargs="?", default=Path(), metavar="DIR", help="where to (default: here)")
     names = (
         "[--detector NAME | --trained NAME |\n" + " " * 21 + "--benchmark NAME | --fault NAME | --campaign NAME | --ci]"
@@ -141,7 +152,7 @@ def _asking(subs) -> None:  # type: ignore[no-untyped-def]
         said = "detector that is trained on labelled flights" if what == "trained" else f"{what} of your own"
         one.add_argument(f"--{what}", metavar="NAME", help=f"a small {said}, and a campaign that flies it")
     one.add_argument("--ci", action="store_true", help="a workflow of GitHub for the campaigns in DIR")
-    schema = add(subs, "schema", commands.schema)
+    schema = add(subs, "schema", asking.schema)
     schema.add_argument("subject", nargs="?", default="", metavar="BENCHMARK", help="name of a benchmark, or designs")
     schema.add_argument("--output", type=Path, metavar="FILE", help="file to write (default: print it)")
     completion = add(subs, "completion", completing.completion)

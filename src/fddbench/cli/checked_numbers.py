@@ -2,7 +2,7 @@
 
 import argparse
 
-__all__ = ["flights", "jobs", "probability", "runs", "share"]
+__all__ = ["flights", "jobs", "probability", "runs", "seed", "share"]
 
 
 def share(text: str) -> float:
@@ -29,20 +29,26 @@ def probability(text: str) -> float:
 
 def flights(text: str) -> int:
     """Number of flights."""
-    if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= 10_000:
-        raise argparse.ArgumentTypeError(f"need a whole number from 1 to 10000, got {text!r}")
-    return int(text)
-
-
-def runs(text: str) -> int:
-    """Number of Monte-Carlo runs."""
-    if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= 10_000_000:
-        raise argparse.ArgumentTypeError(f"need a whole number from 1 to 10000000, got {text!r}")
-    return int(text)
+    return _whole(text, 1, 10_000)
 
 
 def jobs(text: str) -> int:
     """Number of workers."""
-    if not text.isascii() or not text.isdigit() or not 1 <= int(text) <= 256:
-        raise argparse.ArgumentTypeError(f"need a whole number from 1 to 256, got {text!r}")
+    return _whole(text, 1, 256)
+
+
+def runs(text: str) -> int:
+    """Number of Monte-Carlo runs."""
+    return _whole(text, 1, 10_000_000)
+
+
+def seed(text: str) -> int:
+    """Seed of a draw."""
+    return _whole(text, 0, 2**64 - 1)
+
+
+def _whole(text: str, least: int, most: int) -> int:
+    digits = text.isascii() and text.isdigit() and len(text) <= len(str(most))  # longer ones take int too long
+    if not digits or not least <= int(text) <= most:
+        raise argparse.ArgumentTypeError(f"need a whole number from {least} to {most}, got {text!r}")
     return int(text)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from fddbench.cli.outputs import require_new
 from fddbench.errors import FddbenchError
 
 if TYPE_CHECKING:
@@ -21,6 +22,8 @@ def design(args: argparse.Namespace) -> int:
     """
     from fddbench.design.recipe import cook
 
+    if args.output is not None:
+        require_new(args.output, "--output", force=args.force)
     cooked = cook(args.design)
     for name, value in cooked.found.items():
         was = f" (the file says {cooked.before[name]})" if cooked.before.get(name, value) != value else ""
@@ -28,7 +31,7 @@ def design(args: argparse.Namespace) -> int:
     if args.output is None:
         print(cooked.text, end="")
     else:
-        _write(args.output, cooked.text, force=args.force)
+        _write(args.output, cooked.text)
         if "thresholds" in cooked.gains:
             print(f"{args.output}: thresholds are untuned; next: fddbench tune {args.output} CAMPAIGN", file=sys.stderr)
     return 0
@@ -42,13 +45,17 @@ def tune(args: argparse.Namespace) -> int:
     from fddbench.api.campaigns import read
     from fddbench.api.designs import tune as tuned
 
+    output = args.output or Path("detectors") / f"{args.design.name.removesuffix('.yaml')}_tuned.yaml"
+    require_new(output, "--output", force=args.force)  # tuning may take hours: not after it
+    only = [key.strip() for key in (args.only or "").split(",") if key.strip()]
+    if args.only is not None and not only:
+        raise FddbenchError(f"--only names thresholds, KEY or KEY,KEY; got {args.only!r}")
     made = tuned(
         args.design, read(args.campaign, args.overrides), false_alarm_rate=args.false_alarm_rate,
         per_flight=args.per_flight, per_hour=args.per_hour, confidence=args.confidence, by=args.by,
-        only=args.only.split(",") if args.only else (),
+        only=only,
     )  # fmt: skip
-    output = args.output or Path("detectors") / f"{made.name}_tuned.yaml"
-    _write(output, made.text, force=args.force)
+    _write(output, made.text)
     _say(made)
     print(output)
     return 0
@@ -85,10 +92,8 @@ def _numbers(value: Any) -> Iterator[float]:
         yield float(value)
 
 
-def _write(path: Path, text: str, *, force: bool) -> None:
+def _write(path: Path, text: str) -> None:
     """Write a file, its folder made."""
-    if path.exists() and not force:
-        raise FddbenchError(f"{path} exists; name another file with --output, or replace it with --force")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")

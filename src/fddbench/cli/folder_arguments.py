@@ -7,6 +7,8 @@ from fddbench.cli import growing, looking
 from fddbench.cli.added import add
 from fddbench.cli.checked_numbers import flights as _flights
 from fddbench.cli.checked_numbers import jobs as _jobs
+from fddbench.cli.checked_numbers import runs as _runs
+from fddbench.cli.checked_numbers import seed as _seed
 
 __all__ = ["growing_arguments", "looking_arguments", "trusting", "verify_arguments"]
 
@@ -45,7 +47,7 @@ def growing_arguments(subs) -> None:  # type: ignore[no-untyped-def]
     extend = add(subs, "extend", growing.extend)
     extend.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
     extend.add_argument("campaign", type=Path, nargs="?", metavar="CAMPAIGN.yaml", help="campaign that says more")
-    extend.add_argument("--runs", type=_jobs, metavar="N", help="Monte-Carlo runs that there are to be in all")
+    extend.add_argument("--runs", type=_runs, metavar="N", help="Monte-Carlo runs that there are to be in all")
     extend.add_argument(
         "--detector", action="append", default=[], metavar="DESIGN",
         help="name or file of a design to add (may be repeated)",
@@ -72,7 +74,7 @@ def verify_arguments(command: argparse.ArgumentParser) -> None:
     command.add_argument("folder", type=Path, metavar="DIR", help="folder of results")
     command.add_argument("--refly", type=_flights, default=0, metavar="N", help="fly so many of its flights again")
     command.add_argument(
-        "--seed", type=int, metavar="N", help="of the draw of these flights (default: another every time)"
+        "--seed", type=_seed, metavar="N", help="of the draw of these flights (default: another every time)"
     )
     trusting(command)
 

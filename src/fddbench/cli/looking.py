@@ -3,6 +3,7 @@
 import argparse
 import sys
 
+from fddbench.cli.outputs import require_writable
 from fddbench.errors import FddbenchError
 
 __all__ = ["replay", "verify", "worst"]
@@ -15,14 +16,11 @@ def replay(args: argparse.Namespace) -> int:
     every sample, with their units in their names.
     """
     from fddbench.api.replaying import replay as fly
-    from fddbench.api.replaying import require_format, shown_in, write_table
+    from fddbench.api.replaying import shown_in, write_table
     from fddbench.reporting.declarations import declarations
-    from fddbench.reporting.flight_picture import require_picture, write_picture
+    from fddbench.reporting.flight_picture import write_picture
 
-    if args.plot:
-        require_picture(args.plot)
-    if args.to:
-        require_format(args.to)
+    _require_outputs(args)
     if "/" not in args.case:
         raise FddbenchError(f"a flight is named as in the column case, jam_a/3/0/17, got {args.case!r}")
     recording = fly(args.source, args.case, args.detector)
@@ -40,6 +38,19 @@ def replay(args: argparse.Namespace) -> int:
     for path in filter(None, (args.plot, args.to)):
         print(path)
     return 0
+
+
+def _require_outputs(args: argparse.Namespace) -> None:
+    """Refuse files that could not be written, before anything flies."""
+    from fddbench.api.replaying import require_format
+    from fddbench.reporting.flight_picture import require_picture
+
+    if args.signal and not args.plot:
+        raise FddbenchError("--signal names what --plot FILE draws; give both")
+    for path, option, require in ((args.plot, "--plot", require_picture), (args.to, "--to", require_format)):
+        if path:
+            require(path)
+            require_writable(path, option)
 
 
 def worst(args: argparse.Namespace) -> int:
@@ -72,6 +83,8 @@ def verify(args: argparse.Namespace) -> int:
     """
     from fddbench.api.verifying import verify as verified
 
+    if args.seed is not None and not args.refly:
+        raise FddbenchError("--seed is of the draw of the flights that --refly N flies again; give both")
     found = verified(
         args.folder, refly=args.refly, seed=args.seed, notice=lambda text: print(f"fddbench: {text}", file=sys.stderr)
     )

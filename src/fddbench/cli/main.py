@@ -23,6 +23,7 @@ from fddbench.errors import FddbenchError, ResultsWarning
 __all__ = ["entry", "main", "parser"]
 
 _INTERRUPTED, _TERMINATED, _DISK = 130, 143, 74
+_PERMISSION = "change its permissions, or name another file or folder"
 _DISK_ERRORS = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS}
 
 
@@ -54,8 +55,11 @@ def main(argv: list[str] | None = None) -> int:
         return 0
     except OSError as error:
         place = f"{error.filename}: " if error.filename else ""
-        print(f"fddbench: {place}{error.strerror or error}; what is finished is kept, run again", file=sys.stderr)
-        return _DISK if error.errno in _DISK_ERRORS else 2
+        disk = error.errno in _DISK_ERRORS
+        other = _PERMISSION if isinstance(error, PermissionError) else "name another file or folder"
+        cure = "what is finished is kept, run again" if disk else other
+        print(f"fddbench: {place}{error.strerror or error}; {cure}", file=sys.stderr)
+        return _DISK if disk else 2
     except KeyboardInterrupt:
         print(f"fddbench: {'ended from outside' if ended else 'interrupted'}", file=sys.stderr)
         return _TERMINATED if ended else _INTERRUPTED

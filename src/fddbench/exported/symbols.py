@@ -56,8 +56,9 @@ def library(symbols: str | Sequence[Any]) -> Library:
     """
     if isinstance(symbols, str):
         if symbols not in LIBRARIES:
+            hint = did_you_mean(symbols, LIBRARIES)
             raise DesignError(
-                f"no symbol library is called {symbols!r}. {did_you_mean(symbols, LIBRARIES)} Known: {', '.join(LIBRARIES)}"
+                f"no symbol library is called {symbols!r}. {f'{hint} ' if hint else ''}Known: {', '.join(LIBRARIES)}"
             )
         return Library(symbols, library(LIBRARIES[symbols]).most)
     known = {*OPERATIONS, *_GROUPS, "delay"} - _FREE
@@ -67,7 +68,8 @@ def library(symbols: str | Sequence[Any]) -> Library:
         pairs = entry.items() if isinstance(entry, Mapping) else [(entry, float("inf"))]
         for name, size in pairs:
             if name not in known:
-                wrong.append(f"no symbol is called {name!r}. {did_you_mean(str(name), known)}".strip())
+                hint = did_you_mean(str(name), known)
+                wrong.append(f"no symbol is called {name!r}{f' ({hint})' if hint else ''}")
             elif isinstance(size, bool) or not isinstance(size, int | float) or size <= 0:
                 wrong.append(f"the size of {name} must be a whole number above 0, got {size!r}")
             else:

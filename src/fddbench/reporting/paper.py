@@ -21,7 +21,7 @@ def paper_table(summary: pd.DataFrame, by: Sequence[str] = ()) -> pd.DataFrame:
 def _line(line: dict[Any, Any], by: Sequence[str]) -> dict[str, str]:
     return {
         "scenario": str(line["scenario"]),
-        **{name: f"{value:g}" if isinstance(value := line[name], float) else str(value) for name in by},
+        **{name: _value(line[name]) for name in by},
         "detector": str(line["detector"]) + (" (in sample)" if line["in_sample"] else ""),
         "flights": count(line["flown"]),
         "right [%]": _share(line, "right"),
@@ -33,6 +33,13 @@ def _line(line: dict[Any, Any], by: Sequence[str]) -> dict[str, str]:
         "median [s]": seconds(line["detection_time_median_s"]),
         "maximum [s]": seconds(line["detection_time_max_s"]),
     }
+
+
+def _value(value: Any) -> str:
+    """What a line is split by."""
+    if not present(value):
+        return "–"
+    return f"{value:g}" if isinstance(value, float) else str(value)
 
 
 def _share(line: dict[Any, Any], name: str) -> str:

@@ -1,5 +1,7 @@
 """One design on the benchmark of a campaign: what commands about a single detector look at."""
 
+import json
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -27,8 +29,13 @@ def _one_detector(design: str, campaign: Path | None) -> Assembly:
     first: FddbenchError | None = None
     for path in [campaign] if campaign else shipped:
         try:
-            return assemble(read_campaign(path, [f"detectors=[{design}]"]))
+            return assemble(read_campaign(path, [f"detectors=[{_quoted(design)}]"]))
         except FddbenchError as error:
             first = first or error
     assert first is not None
     raise first
+
+
+def _quoted(name: str) -> str:
+    """A name as one value of YAML, whatever it holds."""
+    return name if re.fullmatch(r"[A-Za-z0-9_][\w./-]*", name) else json.dumps(name)

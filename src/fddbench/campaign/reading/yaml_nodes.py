@@ -32,6 +32,10 @@ def read_yaml(path: Path) -> Document:
     """
     name = str(path)
     try:
+        if (
+            path.exists() and not path.is_file() and not path.is_dir()
+        ):  # a pipe without a writer keeps its readers waiting
+            raise CampaignError((Mistake(name, "is a pipe or a device; give a file"),))
         with path.open("rb") as file:
             raw = file.read(MAX_BYTES + 1)
     except OSError as error:

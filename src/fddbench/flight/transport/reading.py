@@ -47,11 +47,18 @@ def read_aircraft(path: Path) -> Aircraft:
 def read_data(path: Path) -> dict[str, Any]:
     """What an aircraft's file says, unchecked; beside the aircraft it may have gains as ``law``."""
     try:
+        if (
+            path.exists() and not path.is_file() and not path.is_dir()
+        ):  # a pipe without a writer keeps its readers waiting
+            raise FddbenchError(f"{path}: is a pipe or a device; give a file")
         data = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+    except OSError as error:
+        raise FddbenchError(f"{path}: cannot be read: {error.strerror or error}") from error
+    except (UnicodeDecodeError, yaml.YAMLError, RecursionError) as error:
         raise FddbenchError(f"{path}: cannot be read as the YAML of an aircraft: {error}") from error
     if not isinstance(data, dict):
-        raise FddbenchError(f"{path}: an aircraft is a mapping as in {SHIPPED.name}, got {type(data).__name__}")
+        got = {"NoneType": "an empty file", "str": "text", "list": "a list"}.get(type(data).__name__, repr(data))
+        raise FddbenchError(f"{path}: an aircraft is a mapping as in {SHIPPED.name}, got {got}")
     return data
 
 

@@ -40,5 +40,5 @@ def power(d: npt.ArrayLike, p_fa: float = P_FA) -> Floats:
     """
     if not 0.0 < p_fa < 1.0:
         raise FddbenchError(f"need a probability of false alarm above 0 and below 1, got {p_fa=:g}")
-    found: Floats = ndtr(np.asarray(d, dtype=float) - ndtri(1.0 - p_fa))
+    found: Floats = ndtr(np.asarray(d, dtype=float) + ndtri(p_fa))
     return found

@@ -24,7 +24,7 @@ class Order:
     name, path, sha256 : str
         Of the design, its file, and what the file and those beside it held.
     written : mapping or None
-        Gains of a variant; None: as the file says.
+        Gains, of a variant or a tuning other than the file says; None: as it says.
     bus : Bus
         What it is fed with.
     search : tuple of str
@@ -41,7 +41,7 @@ class Order:
     @classmethod
     def of(cls, design: Design, bus: Bus) -> "Order":
         """Order for a design."""
-        written = dict(design.written) if design.swept else None
+        written = dict(design.written) or None  # those of a variant, or of a tuning
         return cls(
             name=design.name, path=str(design.path.absolute()), sha256=design.sha256, written=written, bus=bus,
             search=tuple(sys.path),
