@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 import mkdocs_gen_files
+import nbformat
 
 import fddbench
 from fddbench import gallery, kinds
@@ -86,13 +87,28 @@ def campaigns():
     return "".join(parts)
 
 
+def study():
+    """Page of the executed notebook."""
+    parts = []
+    for cell in nbformat.read(Path("docs/study.ipynb"), 4).cells:
+        if cell.cell_type == "markdown":
+            parts.append(f"{cell.source}\n\n")
+            continue
+        parts.append(f"```python\n{cell.source}\n```\n\n")
+        for output in cell.outputs:
+            text = output.get("data", {}).get("text/plain", "")
+            parts.append(f"```text\n{text}\n```\n\n" if text else "")
+    return "".join(parts)
+
+
 def python():
     """Page of everything that `import fddbench` gives."""
     parts = ["# Python\n\nWhat commands do, functions do; `import fddbench` gives these.\n"]
     for name in sorted(fddbench.__all__):
         thing = getattr(fddbench, name)
         if callable(thing):
-            parts.append(f"\n::: {thing.__module__}.{thing.__qualname__}\n")
+            shown = thing if hasattr(thing, "__qualname__") else type(thing)  # `report` is called and has pictures
+            parts.append(f"\n::: {shown.__module__}.{shown.__qualname__}\n")
     return "".join(parts)
 
 
@@ -100,6 +116,7 @@ write("benchmarks", benchmarks())
 write("choices", choices())
 write("columns", columns())
 write("gallery", campaigns())
+write("study", study())
 write("python", python())
 write(
     "faults",

@@ -2,6 +2,7 @@
 
 import os
 import re
+import runpy
 import subprocess
 import sys
 from pathlib import Path
@@ -78,6 +79,21 @@ def test_the_first_hour_has_at_most_fifteen_commands():
         line for language, _, text in _blocks("docs/first_hour.md") if language == "sh" for line in text.splitlines()
     ]
     assert len([line for line in lines if line.strip()]) <= 15
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore")
+def test_the_notebook_says_what_it_said(tmp_path):
+    """Executed anew, every output is the one that is kept: the numbers of a folder are the same on every machine."""
+    import nbformat
+
+    study = runpy.run_path(str(ROOT / "docs" / "study_make.py"))
+    again = study["executed"](study["made"](), tmp_path)
+    kept = nbformat.read(ROOT / "docs" / "study.ipynb", 4)
+    assert [cell.source for cell in kept.cells] == [cell.source for cell in again.cells]
+    for one, other in zip(kept.cells, again.cells, strict=True):
+        here, there = ([o.get("data", {}).get("text/plain") for o in cell.get("outputs", [])] for cell in (one, other))
+        assert here == there
 
 
 @pytest.mark.slow
