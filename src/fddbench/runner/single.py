@@ -7,6 +7,7 @@ from pathlib import Path
 
 from fddbench import gallery
 from fddbench.campaign.load import read_campaign
+from fddbench.campaign.reading.overrides import ALONE
 from fddbench.errors import FddbenchError
 from fddbench.runner.assembling import assemble
 from fddbench.runner.assembly import Assembly
@@ -29,7 +30,7 @@ def _one_detector(design: str, campaign: Path | None) -> Assembly:
     first: FddbenchError | None = None
     for path in [campaign] if campaign else shipped:
         try:
-            return assemble(read_campaign(path, [f"detectors=[{_quoted(design)}]"]))
+            return assemble(read_campaign(path, [f"detectors=[{_quoted(design)}]", *ALONE]))
         except FddbenchError as error:
             first = first or error
     assert first is not None

@@ -103,7 +103,14 @@ def _matched(
         if not chosen([pattern], known):
             parts = (did_you_mean(pattern, known), f"Its {what}s: {', '.join(known)}")
             hint = " ".join(filter(None, parts))
-            yield document.mistake((*at, number), f"no {what} of this campaign is called {pattern!r}. {hint}")
+            message = f"no {what} of this campaign is called {pattern!r}. {hint}{_without(document, f'{what}s')}"
+            yield document.mistake((*at, number), message)
+
+
+def _without(document: Document, *address: str) -> str:
+    """Cure for requirements that an override of the command line made pointless."""
+    changed = document.where(address).startswith("--set")
+    return ". Without requirements: --set requirements=[]" if changed else ""
 
 
 def _parts(document: Document, at: Address, entry: RequirementEntry, dispersions: Dispersions) -> Iterator[Mistake]:
@@ -132,6 +139,6 @@ def _runs(document: Document, at: Address, entry: RequirementEntry, written: Cam
     if runs and min(runs) < 2:
         message = (
             "a requirement is judged over Monte-Carlo runs, and there is one run; write dispersions: {monte_carlo: {runs: "
-            "1000}}"
+            f"1000}}}}{_without(document, 'dispersions', 'monte_carlo', 'runs')}"
         )
         yield document.mistake(at, message)
