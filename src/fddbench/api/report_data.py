@@ -87,7 +87,7 @@ def report_data(folder: Path, *, replay: bool = True) -> ReportData:
         detectable=detectable_of(rows, campaign),
         consequences=assembly.consequences.announced,
         swept=swept_columns(rows, campaign),
-        requirements=[asdict(each) for each in judgements(folder, campaign)],
+        requirements=[asdict(each) for each in judgements(folder, campaign, rows)],
         operating=operating_of(rows, campaign),
     )
 

@@ -49,13 +49,17 @@ def requirements(folder: str | Path) -> pd.DataFrame:
     return found
 
 
-def judgements(folder: str | Path, campaign: Campaign | None = None) -> list[Judgement]:
+def judgements(
+    folder: str | Path, campaign: Campaign | None = None, rows: pd.DataFrame | None = None
+) -> list[Judgement]:
     """The same as records, in the order of the campaign; empty where it requires nothing.
 
     Parameters
     ----------
     campaign : Campaign, optional
         That of the folder, by those who have read it; what it requires may differ from what is frozen there.
+    rows : DataFrame, optional
+        Rows of the folder, by those who have read them; columns that they lack are read.
 
     Raises
     ------
@@ -70,9 +74,10 @@ def judgements(folder: str | Path, campaign: Campaign | None = None) -> list[Jud
         each.per if each.per == "scenario" else f"p_{each.per}" for each in own.requirements if each.per
     )
     names = [*dict.fromkeys((*NEEDS, *columns))]
-    there = bool(shards(Path(folder)))
-    rows = read_rows(Path(folder), names) if there else pd.DataFrame(columns=names)
-    by_detector = {str(name): part for name, part in rows.groupby("detector", sort=False)}
+    if rows is None or not set(names) <= set(rows.columns):
+        there = bool(shards(Path(folder)))
+        rows = read_rows(Path(folder), names) if there else pd.DataFrame(columns=names)
+    by_detector = {str(name): part for name, part in rows[names].groupby("detector", sort=False)}
     return [one for entry in own.requirements for one in _of_entry(entry, own, case_table, by_detector)]
 
 
