@@ -1,5 +1,6 @@
 """Code that lies in a folder of results runs only where it was flown, or where its user said so."""
 
+import json
 import os
 import shutil
 from pathlib import Path
@@ -132,6 +133,23 @@ def test_a_folder_of_another_user_is_not_private(tmp_path):
     os.chown(own, 65534, 65534)
     assert "another user" in private.trouble(own)
     assert private.read(own / "a") is None
+
+
+def test_a_folder_that_looks_cut_off_does_not_run_its_plugin(elsewhere):
+    out, mark = elsewhere
+    told = json.loads((out / "provenance.json").read_text())
+    stage = {
+        "fingerprint": told["fingerprints"][0],
+        "scenarios": {"healthy": [1, 1, 1]},
+        "detectors": ["own"],
+        "points": None,
+        "campaign_yaml_sha256": told["campaign_yaml_sha256"],
+    }
+    told |= {"stages": [stage, stage | {"campaign_yaml_sha256": "0" * 64}], "campaign_yaml_sha256": "0" * 64}
+    (out / "provenance.json").write_text(json.dumps(told))
+    with pytest.raises(UntrustedError):
+        fddbench.extend(out, detectors=["voting_monitor"])
+    assert not mark.exists()
 
 
 @pytest.mark.parametrize("name", ["detectors/supplier/more.c", "detectors/supplier/more.h"])
