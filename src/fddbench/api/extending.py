@@ -14,11 +14,8 @@ from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.reading.canonical import canonical_text
 from fddbench.designs.design import Design, read_design
 from fddbench.designs.finding import find_design
-from fddbench.errors import CampaignError, FddbenchError, ResultsError, did_you_mean
-from fddbench.results.folder import changed_files, provenance_of
-from fddbench.results.shards import file_sha256
-from fddbench.results.stages import stages_in
-from fddbench.runner.fingerprint import frozen
+from fddbench.errors import CampaignError, FddbenchError, did_you_mean
+from fddbench.runner.fingerprint import frozen, frozen_before
 from fddbench.runner.growing import grow_to
 from fddbench.runner.run import Progress, RunReport, run_campaign
 
@@ -68,7 +65,7 @@ def extend(
         raise FddbenchError("scenarios are those of a campaign: name its file too")
     if campaign is None and runs is None and not detectors:
         raise FddbenchError("nothing to extend by: give runs, detectors, or a campaign that says more")
-    old = _flown(path)
+    old = frozen_before(path)
     with TemporaryDirectory() as aside:
         grow_to(path, old, _larger(old, campaign, runs, detectors, scenarios, Path(aside)))
     report = run_campaign(frozen(path), path, jobs=jobs, backend=backend, progress=progress, notice=notice)
@@ -77,17 +74,6 @@ def extend(
         if summarised is not None:
             summarised(*tables)
     return report
-
-
-def _flown(folder: Path) -> Campaign:
-    """Campaign of a folder; of one whose extension was cut off before its campaign was frozen, that of the stage before."""
-    stages = stages_in(provenance_of(folder))
-    frozen_yaml = folder / "campaign.yaml"
-    if len(stages) > 1 and changed_files(folder) == ["campaign.yaml"]:
-        if file_sha256(frozen_yaml) == stages[-2].campaign_yaml_sha256:
-            return read_campaign(frozen_yaml)
-        raise ResultsError(f"{frozen_yaml} is not the file of these results; put it back")
-    return frozen(folder)
 
 
 def _larger(

@@ -103,7 +103,7 @@ def run_campaign(
     backend : {"auto", "llvm", "numpy"}, or one of them and "+c"
         See `fddbench.runner.flight.Flyer`; no part of any result.
     wanted, retry_failed : array of bool, optional, and bool
-        Fly these rows only, (n_detectors, n_cases), see `fddbench.campaign.selection`; fly shards again that have failed rows.
+        Fly these rows only, (n_detectors, n_cases); fly again the shards that have failed rows and any of these.
     progress, notice : callable
         Told at the beginning and after every chunk; told what slows the run down, and what was damaged and is flown again.
 
@@ -128,7 +128,7 @@ def run_campaign(
         work = Work(folder=str(folder.absolute()), fingerprint=fingerprint.sha256, backend=backend)
         interrupted = any(_fly_part(flyer, work, part, engine=own, chunk=chunk, told=told) for part in left.parts)
         if interrupted:  # perhaps between the listing of a shard and its count
-            told.flown = told.total - left_in(folder, say, wanted=wanted).n_left - told.before
+            told.flown = told.total - left_in(folder, say, wanted=left.wanted).n_left - told.before
         else:
             _few_files(folder, fingerprint.sha256, say)
     return _report(folder, told, interrupted=interrupted, wall_s=time.monotonic() - begun)
