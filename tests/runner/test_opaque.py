@@ -19,8 +19,8 @@ from fddbench.runner.assembling import assemble
 from fddbench.runner.firsts import first_samples
 from fddbench.runner.flight import Flyer
 from fddbench.runner.rehearsal import rehearse
+from fddbench.runner.rows import rows_and_events
 from fddbench.runner.run import run_campaign
-from fddbench.runner.work import rows_and_events
 from fddbench.testing import check_detector
 
 ALL = {"plain": PLAIN, "side": SIDE_BY_SIDE, "monitor": MONITOR, "always": failing("raise ValueError('no')")}

@@ -13,8 +13,8 @@ from fddbench.campaign.load import read_campaign
 from fddbench.results.table import load_events
 from fddbench.runner.assembling import assemble
 from fddbench.runner.flight import Flyer
+from fddbench.runner.rows import rows_and_events
 from fddbench.runner.run import run_campaign
-from fddbench.runner.work import rows_and_events
 
 
 def bits(frame: pd.DataFrame) -> str:

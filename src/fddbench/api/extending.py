@@ -8,13 +8,13 @@ from typing import Any
 import pandas as pd
 import yaml
 
+from fddbench.api.aside import campaign_aside
 from fddbench.api.tables import leave_summary
 from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
-from fddbench.campaign.reading.canonical import canonical_text
 from fddbench.designs.design import Design, read_design
 from fddbench.designs.finding import find_design
-from fddbench.errors import CampaignError, FddbenchError, did_you_mean
+from fddbench.errors import FddbenchError, did_you_mean
 from fddbench.runner.fingerprint import frozen, frozen_before
 from fddbench.runner.growing import grow_to
 from fddbench.runner.run import Progress, RunReport, run_campaign
@@ -104,14 +104,7 @@ def _larger(
             content["detectors"] = [*content["detectors"], design.base]
         files[f"detectors/{design.base}.yaml"] = design.text.encode()
         files |= {f"detectors/{name}": text for name, text in design.files.items()}
-    files["campaign.yaml"] = canonical_text(content).encode()
-    for name, text in files.items():
-        (aside / name).parent.mkdir(parents=True, exist_ok=True)
-        (aside / name).write_bytes(text)
-    try:
-        return read_campaign(aside / "campaign.yaml")
-    except CampaignError as error:  # places in a file that nobody has seen
-        raise FddbenchError(str(error).replace(f"{aside}/", "the larger campaign, ")) from error
+    return campaign_aside(content, files, aside, "the larger campaign")
 
 
 def _scenarios(given: Campaign, wanted: Sequence[str]) -> list[dict[str, Any]]:

@@ -8,10 +8,9 @@ from typing import Any
 
 import yaml
 
+from fddbench.api.aside import campaign_aside
 from fddbench.api.tables import leave_summary
-from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
-from fddbench.campaign.reading.canonical import canonical_text
 from fddbench.errors import FddbenchError
 from fddbench.results.folder import changed_files, provenance_of
 from fddbench.results.whole import Holdings, holdings
@@ -79,11 +78,7 @@ def _whole(campaigns: Sequence[Campaign], aside: Path) -> Campaign:
             content[key] = [*content[key], *(entry for entry in other[key] if _name(entry, name) not in known)]
         _widen(content.get("dispersions") or {}, other.get("dispersions") or {})
         _more_runs(content["scenarios"], other["scenarios"])
-    files["campaign.yaml"] = canonical_text(content).encode()
-    for name, text in files.items():
-        (aside / name).parent.mkdir(parents=True, exist_ok=True)
-        (aside / name).write_bytes(text)
-    return read_campaign(aside / "campaign.yaml")
+    return campaign_aside(content, files, aside, "the campaign of all")
 
 
 def _name(entry: Any, key: str) -> str:
@@ -91,11 +86,14 @@ def _name(entry: Any, key: str) -> str:
 
 
 def _widen(mine: dict[str, Any], other: dict[str, Any]) -> None:
-    """Grid values and runs that either has."""
+    """Grid values and runs that either has, and the longer sequence."""
     for name, values in (other.get("grid") or {}).items():
         own = (mine.get("grid") or {}).get(name)
         if own is not None:
             mine["grid"][name] = sorted({*own, *values})
+    for name, values in (other.get("sequence") or {}).items():
+        if len(values) > len((mine.get("sequence") or {}).get(name, values)):
+            mine["sequence"][name] = values
     drawn, others = mine.get("monte_carlo"), other.get("monte_carlo")
     if drawn and others:
         drawn["runs"] = max(drawn["runs"], others["runs"])

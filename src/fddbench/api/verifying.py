@@ -17,7 +17,7 @@ from fddbench.runner.assembling import assemble
 from fddbench.runner.fingerprint import frozen, other_program
 from fddbench.runner.flight import Flyer
 from fddbench.runner.rehearsal import rehearsed
-from fddbench.runner.work import rows_and_events
+from fddbench.runner.rows import rows_and_events
 
 __all__ = ["Verified", "verify"]
 

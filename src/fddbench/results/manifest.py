@@ -16,10 +16,11 @@ from typing import Any
 from fddbench.errors import ResultsError
 from fddbench.results.shards import write_bytes
 
-__all__ = ["Shard", "Survey", "append", "keep", "shards", "survey"]
+__all__ = ["SHARD_FILE", "Shard", "Survey", "append", "keep", "shards", "survey"]
 
 _NAME = "manifest.jsonl"
-_FILE = re.compile(r"(rows|events)/[0-9-]+\.parquet")
+SHARD_FILE = re.compile(r"(rows|events)/[0-9-]+\.parquet")
+"""Names of shards in a folder of results."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -152,7 +153,7 @@ def _shard(line: bytes) -> Shard | None:
         entry["detectors"] = tuple(str(name) for name in entry.get("detectors", ()))
         shard = Shard(**entry)
         names = (shard.rows, *([shard.events] if shard.events is not None else []))
-        sound = all(_FILE.fullmatch(name) for name in names) and _line(shard) == line + b"\n"
+        sound = all(SHARD_FILE.fullmatch(name) for name in names) and _line(shard) == line + b"\n"
         return shard if sound else None
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return None

@@ -16,7 +16,7 @@ from fddbench.results.lock import locked
 from fddbench.results.stages import Stage, stages_in
 from fddbench.runner.assembling import assemble
 from fddbench.runner.fingerprint import fingerprint_of, provenance_for
-from fddbench.runner.work import schemas_of
+from fddbench.runner.rows import schemas_of
 
 __all__ = ["as_far_as", "grow_to"]
 

@@ -22,13 +22,12 @@ from fddbench.results.folder import claim, provenance_of, refuse_foreign
 from fddbench.results.lock import locked
 from fddbench.results.manifest import Shard
 from fddbench.results.schema import CASE
-from fddbench.results.shards import write_table
 from fddbench.results.table import as_of_today, read_events, read_rows
 from fddbench.runner.assembling import assemble
-from fddbench.runner.chunks import spans
 from fddbench.runner.fingerprint import fingerprint_of, provenance_for
 from fddbench.runner.growing import as_far_as
-from fddbench.runner.work import schemas_of
+from fddbench.runner.rows import schemas_of
+from fddbench.runner.writing import write_shard
 
 __all__ = ["merge_into"]
 
@@ -119,26 +118,13 @@ def _shards(folder: Path, plan: Plan, fingerprint: str, rows: pa.Table, events: 
     for k in range(kinds.shape[1]):
         names = tuple(name for name, has in zip(detectors, kinds[:, k], strict=True) if has)
         cases = there[which.ravel() == k]
-        label = "" if len(names) == len(detectors) else f"-{crc32(repr(names).encode()):010d}"
+        label = "" if len(names) == len(detectors) else f"{crc32(repr(names).encode()):010d}"
         for part in np.array_split(cases, -(-len(cases) * len(names) // _SHARD_ROWS)):
-            own = {kind: table.filter(pa.array(np.isin(at, part))) for kind, table, at in
-                   (("rows", rows, numbers), ("events", events, its))}  # fmt: skip
-            name = f"{part[0]:08d}-{part[-1]:08d}-{len(part)}{label}.parquet"
-            sha256 = {
-                kind: write_table(folder / kind / name, table, fingerprint=fingerprint) if len(table) else None
-                for kind, table in own.items()
-            }
-            counts = own["rows"]["status"].value_counts().to_pylist()
-            yield Shard(
-                cases=spans(part),
-                rows=f"rows/{name}",
-                rows_sha256=str(sha256["rows"]),
-                events=f"events/{name}" if sha256["events"] else None,
-                events_sha256=sha256["events"],
-                statuses=dict(sorted((entry["values"], entry["counts"]) for entry in counts)),
-                fingerprint=fingerprint,
+            mine, theirs = (table.filter(pa.array(np.isin(at, part))) for table, at in ((rows, numbers), (events, its)))
+            yield write_shard(
+                folder, part, mine, theirs, fingerprint=fingerprint, label=label,
                 detectors=() if len(names) == len(detectors) else names,
-            )
+            )  # fmt: skip
 
 
 def _numbers(plan: Plan, table: pa.Table) -> Cases:

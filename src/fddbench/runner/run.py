@@ -128,7 +128,8 @@ def run_campaign(
         work = Work(folder=str(folder.absolute()), fingerprint=fingerprint.sha256, backend=backend)
         interrupted = any(_fly_part(flyer, work, part, engine=own, chunk=chunk, told=told) for part in left.parts)
         if interrupted:  # perhaps between the listing of a shard and its count
-            told.flown = told.total - left_in(folder, say, wanted=left.wanted).n_left - told.before
+            there = left_in(folder, say, wanted=left.wanted)
+            told.flown, told.statuses = told.total - there.n_left - told.before, there.statuses
         else:
             _few_files(folder, fingerprint.sha256, say)
     return _report(folder, told, interrupted=interrupted, wall_s=time.monotonic() - begun)

@@ -6,7 +6,7 @@ from fddbench.campaign.reading.overrides import ALONE
 from fddbench.errors import DesignError
 from fddbench.runner.flight import Flyer
 from fddbench.runner.rehearsal import rehearse
-from fddbench.runner.work import rows_and_events
+from fddbench.runner.rows import rows_and_events
 from fddbench.testing.campaigns import different_bits, require, some_flights
 
 __all__ = ["check_detector"]
