@@ -54,7 +54,8 @@ def export(
     Raises
     ------
     FddbenchError
-        The detector is ordinary Python or needs other symbols; the folder has such files; single precision finds no compiler.
+        The detector is ordinary Python or needs other symbols; the folder has such files; single precision finds no compiler,
+        or what it computes is no number.
     """
     if precision not in {"double", "single"}:
         raise DesignError(f"no precision is called {precision!r}; known: double, single")
@@ -139,6 +140,12 @@ def _single(code: Code, detector: Any, about: Sequence[str]) -> Code:
             loss[member.source] = float(
                 apart.max(initial=0.0) / max(np.abs(double.outputs[:, rows]).max(initial=0.0), 1e-300)
             )
+    lost = [key for key, value in loss.items() if not np.isfinite(value)]
+    if lost:
+        raise DesignError(
+            f"{interface.name} in single precision makes no numbers of {', '.join(lost)} on the vectors, measured by "
+            f"{compiler()}; keep to double precision"
+        )
     said = ", ".join(f"{key} {value:.2g}" for key, value in loss.items())
     told = [
         *about[:3],
