@@ -1,7 +1,10 @@
 """Detectors in the loop as compiled C: the same rows, and code that was not written here in a process of its own."""
 
 import json
+import os
 import re
+import subprocess
+import sys
 
 import numpy as np
 import pyarrow as pa
@@ -159,6 +162,32 @@ def test_a_flag_that_changes_bits_is_refused():
         compiler("true", ("-ffast-math",))
     with pytest.raises(FddbenchError, match="-ffp-contract=fast would change the bits"):
         compiler("true", ("-ffp-contract=fast",))
+
+
+@pytest.mark.parametrize("flag", ["-m32", "-mfpmath=387", "-fsingle-precision-constant", "-mdaz-ftz", "-Ofast"])
+def test_a_flag_beside_the_compiler_is_refused_too(flag):
+    with pytest.raises(FddbenchError, match=f"{flag} would change the bits of a flight"):
+        compiler(f"true {flag}")
+
+
+def test_a_folder_without_a_cache_is_gone_when_the_process_ends(tmp_path):
+    code = (
+        "from fddbench import private\n"
+        "from fddbench.exported.compiling import _place\n"
+        "def none(): raise OSError\n"
+        "private.folder = none\n"
+        "assert _place() == _place() and _place().is_dir()\n"
+        "print(_place())\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        env=os.environ | {"TMPDIR": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stdout.startswith(str(tmp_path))
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_compiler_that_is_missing_is_named():

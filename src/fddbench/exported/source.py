@@ -225,4 +225,9 @@ _GUARDS = (
     "#if defined(__FAST_MATH__)",
     "#error this file needs the arithmetic of IEEE 754: compile it without -ffast-math",
     "#endif",
+    "#if defined(__FLT_EVAL_METHOD__)",
+    "#if (__FLT_EVAL_METHOD__ != 0) && (__FLT_EVAL_METHOD__ != 16)",
+    "#error this file needs each operation rounded to its own type: not for an x87, compile it with SSE",
+    "#endif",
+    "#endif",
 )
