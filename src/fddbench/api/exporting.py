@@ -47,7 +47,8 @@ def export(
     precision : {"double", "single"}
         Double precision gives the bits of every flight; single precision says what it loses.
     symbols : str or sequence, optional
-        Symbol library that it must keep to, see `fddbench.exported.symbols`; that of the design by default.
+        Symbol library that it must keep to, see `fddbench.exported.symbols`, beside those that its design and the campaign
+        state.
     force : bool
         Replace files that are there.
 
@@ -74,9 +75,8 @@ def exported(
     own, bus = assembly.detectors[name], assembly.loop.bus
     design = next(each for each in assembly.plan.campaign.designs if each.name == name)
     interface = interface_of(own, bus, name=name, about=design.about)
-    wanted = symbols
-    if wanted is not None:
-        require_symbols(interface.program, library(wanted), name)
+    if symbols is not None:
+        require_symbols(interface.program, library(symbols), name)
     about = _about(design, interface, str(assembly.plan.campaign.name))
     code = code_of(interface, own.detector, flown_samples(assembly, own.every), about=about)
     return code if precision == "double" else _single(code, own.detector, about)

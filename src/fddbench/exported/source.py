@@ -188,7 +188,7 @@ class _Source:
         lines = list(assignments_text(map(Assignment, self.interface.state_places, start), "    ", {}))
         if any("for (i" in line for line in lines):
             yield from ("    uint32_t i;", "")
-        yield from lines or ["    x->nothing = 0.0;"]
+        yield from lines or [f"    x->nothing = {self.spelling.number(0.0)};"]
         yield "}"
 
     def _step(self, functions: Iterable[_Function]) -> Iterator[str]:
