@@ -67,7 +67,7 @@ def test_every_kind_keeps_the_rules_that_cppcheck_judges(tmp_path):
         command = ["cppcheck", "--addon=misra", "--std=c99", "--quiet", path.name]
         done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
         said[path.name] = done.stdout + done.stderr  # a missing addon is told on the one, a broken rule on the other
-    assert len(said) == len(one_a_kind) > 20
+    assert len(said) == len(one_a_kind) >= 18
     assert {name: text for name, text in said.items() if text} == {}
 
 
