@@ -38,7 +38,7 @@ def export(args: argparse.Namespace) -> int:
 def _symbols(text: str | None) -> Any:
     """A library by name, or a list of symbols with sizes: ``add,mul,lookup:64``."""
     from fddbench.errors import FddbenchError
-    from fddbench.exported.symbols import LIBRARIES
+    from fddbench.exported.symbols import LIBRARIES, SYMBOLS
 
     if text is None or text in LIBRARIES:
         return text
@@ -48,7 +48,7 @@ def _symbols(text: str | None) -> Any:
         if colon and not (size.isascii() and size.isdigit() and len(size) < 10):
             raise FddbenchError(f"--symbols: a size is a whole number, as in lookup:64; got {part!r}")
         found.append({name: int(size)} if colon else name)
-    return found if len(found) > 1 else text
+    return found if len(found) > 1 or ":" in text or text in SYMBOLS else text
 
 
 def arguments(export: argparse.ArgumentParser) -> None:
