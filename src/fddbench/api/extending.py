@@ -70,7 +70,10 @@ def extend(
         raise FddbenchError("nothing to extend by: give runs, detectors, or a campaign that says more")
     old = _flown(path)
     with TemporaryDirectory() as aside:
-        grow_to(path, old, _larger(old, campaign, runs, detectors, scenarios, Path(aside)))
+        try:
+            grow_to(path, old, _larger(old, campaign, runs, detectors, scenarios, Path(aside)))
+        except CampaignError as error:  # places in a file that nobody has seen
+            raise FddbenchError(str(error).replace(f"{aside}/", "the larger campaign, ")) from error
     report = run_campaign(frozen(path), path, jobs=jobs, backend=backend, progress=progress, notice=notice)
     if not report.interrupted:
         tables = leave_summary(path)
@@ -122,10 +125,7 @@ def _larger(
     for name, text in files.items():
         (aside / name).parent.mkdir(parents=True, exist_ok=True)
         (aside / name).write_bytes(text)
-    try:
-        return read_campaign(aside / "campaign.yaml")
-    except CampaignError as error:  # places in a file that nobody has seen
-        raise FddbenchError(str(error).replace(f"{aside}/", "the larger campaign, ")) from error
+    return read_campaign(aside / "campaign.yaml")
 
 
 def _scenarios(given: Campaign, wanted: Sequence[str]) -> list[dict[str, Any]]:
