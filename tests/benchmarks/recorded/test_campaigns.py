@@ -190,6 +190,20 @@ def test_a_px4_log_flies_compiled_and_plain_alike(folder, tmp_path):
     assert "estimated error" in described(path)
 
 
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        ("largest_gap_s: 9\n", "'largest_gap_s' stands twice in this block, first at line [1-9]"),
+        ("truth: {r_true_deg_s: {from: a}, r_true_deg_s: {from: b}}\n", "'r_true_deg_s' stands twice"),
+    ],
+)
+def test_a_key_that_stands_twice_in_a_mapping_is_refused(folder, more, said):
+    path = folder / "logs.yaml"
+    path.write_text(path.read_text() + more)
+    with pytest.raises(CampaignError, match=rf"logs.yaml.*{said}.*line {path.read_text().count(chr(10))}, column"):
+        read_campaign(folder / "logged.yaml")
+
+
 def test_too_many_numbers_fly_in_python_with_the_same_bits(folder, monkeypatch):
     path = folder / "logged.yaml"
     before, _ = logging.rows_of(path)
