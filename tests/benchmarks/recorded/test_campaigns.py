@@ -207,9 +207,13 @@ def test_a_key_that_stands_twice_in_a_mapping_is_refused(folder, more, said):
 def test_too_many_numbers_fly_in_python_with_the_same_bits(folder, monkeypatch):
     path = folder / "logged.yaml"
     before, _ = logging.rows_of(path)
+    assert "in Python" not in described(path)
     monkeypatch.setattr("fddbench.benchmarks.recorded.loop.MOST_NUMBERS", 100)
     assembly = assemble(read_campaign(path))
     assert not Flyer(assembly).compiled
+    assert "All fly in Python: the logs hold 1,503 numbers, at most 100 are compiled" in " ".join(
+        described(path).split()
+    )
     pd.testing.assert_frame_equal(logging.rows_of(path)[0], before)
 
 
