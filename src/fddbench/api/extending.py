@@ -1,5 +1,6 @@
 """More of a campaign that was flown: runs, grid values, scenarios, detectors; what is there keeps its bytes."""
 
+import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -14,7 +15,7 @@ from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.reading.canonical import canonical_text
 from fddbench.designs.design import Design, read_design
 from fddbench.designs.finding import find_design
-from fddbench.errors import CampaignError, FddbenchError, ResultsError, did_you_mean
+from fddbench.errors import FddbenchError, ResultsError, did_you_mean
 from fddbench.results.folder import changed_files, provenance_of
 from fddbench.results.shards import file_sha256
 from fddbench.results.stages import stages_in
@@ -72,14 +73,20 @@ def extend(
     with TemporaryDirectory() as aside:
         try:
             grow_to(path, old, _larger(old, campaign, runs, detectors, scenarios, Path(aside)))
-        except CampaignError as error:  # places in a file that nobody has seen
-            raise FddbenchError(str(error).replace(f"{aside}/", "the larger campaign, ")) from error
+        except FddbenchError as error:
+            raise FddbenchError(_without_places(str(error), aside)) from None
     report = run_campaign(frozen(path), path, jobs=jobs, backend=backend, progress=progress, notice=notice)
     if not report.interrupted:
         tables = leave_summary(path)
         if summarised is not None:
             summarised(*tables)
     return report
+
+
+def _without_places(text: str, aside: str) -> str:
+    """A refusal without the path, line and column of a file that nobody has seen; lines of a design are those of its author."""
+    text = re.sub(re.escape(f"{aside}/campaign.yaml") + r"(:\d+:\d+)?", "the larger campaign", text)
+    return text.replace(f"{aside}/", "the larger campaign, ")
 
 
 def _flown(folder: Path) -> Campaign:
