@@ -1,40 +1,55 @@
 """A campaign that nobody wrote: made of others, read from a folder of its own."""
 
-from collections.abc import Mapping
+import re
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.reading.canonical import canonical_text
-from fddbench.errors import CampaignError, FddbenchError
+from fddbench.errors import FddbenchError
 
-__all__ = ["campaign_aside"]
+__all__ = ["aside", "campaign_in"]
 
 
-def campaign_aside(content: Mapping[str, Any], files: Mapping[str, bytes], aside: Path, what: str) -> Campaign:
-    """Campaign of a document and the files that it stands on, written into an empty folder and read there.
+@contextmanager
+def aside(what: str) -> Iterator[Path]:
+    """Folder for a campaign that nobody has seen; what is refused meanwhile speaks of `what`, not of places in that folder.
 
     Parameters
     ----------
-    content : mapping
-        The document.
-    files : mapping of str to bytes
-        Designs and plug-ins by their names beside it.
-    aside : Path
-        Where to.
     what : str
-        What it is called where it is wrong: its places are those of a file that nobody has seen.
+        What the campaign is called, "the larger campaign".
 
     Raises
     ------
     FddbenchError
+        Whatever was refused.
+    """
+    with TemporaryDirectory() as name:
+        try:
+            yield Path(name)
+        except FddbenchError as error:
+            # lines of a design are those of its author
+            text = re.sub(re.escape(f"{name}/campaign.yaml") + r"(:\d+:\d+)?", what, str(error))
+            text = text.replace(f"{name}/", f"{what}, ")
+            if text == str(error):
+                raise
+            raise FddbenchError(text) from None
+
+
+def campaign_in(folder: Path, content: Mapping[str, Any], files: Mapping[str, bytes]) -> Campaign:
+    """Campaign of a document and the files that it stands on, by their names beside it, written into an empty folder.
+
+    Raises
+    ------
+    CampaignError
         It cannot be read.
     """
     for name, text in {**files, "campaign.yaml": canonical_text(content).encode()}.items():
-        (aside / name).parent.mkdir(parents=True, exist_ok=True)
-        (aside / name).write_bytes(text)
-    try:
-        return read_campaign(aside / "campaign.yaml")
-    except CampaignError as error:
-        raise FddbenchError(str(error).replace(f"{aside}/", f"{what}, ")) from error
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_bytes(text)
+    return read_campaign(folder / "campaign.yaml")

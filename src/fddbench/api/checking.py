@@ -39,7 +39,8 @@ def described(path: str | Path, overrides: Sequence[str] = ()) -> str:
     chunk = min(
         OPAQUE_CHUNK if alone else COMPILED_CHUNK if compiled else CHUNK, max(s.n_cases for s in plan.scenarios)
     )
-    notes = []
+    large = getattr(assembly.loop, "in_python", "")
+    notes = [f"All fly in Python: {large}"] if large else []
     for name, own in opaque.items():
         seconds = _timed(own, first_samples(assembly, _TIMED, 3 if own.one_by_one else chunk))
         if own.one_by_one:

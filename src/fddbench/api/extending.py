@@ -2,13 +2,12 @@
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import pandas as pd
 import yaml
 
-from fddbench.api.aside import campaign_aside
+from fddbench.api.aside import aside, campaign_in
 from fddbench.api.tables import leave_summary
 from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
@@ -66,8 +65,8 @@ def extend(
     if campaign is None and runs is None and not detectors:
         raise FddbenchError("nothing to extend by: give runs, detectors, or a campaign that says more")
     old = frozen_before(path)
-    with TemporaryDirectory() as aside:
-        grow_to(path, old, _larger(old, campaign, runs, detectors, scenarios, Path(aside)))
+    with aside("the larger campaign") as written:
+        grow_to(path, old, _larger(old, campaign, runs, detectors, scenarios, written))
     report = run_campaign(frozen(path), path, jobs=jobs, backend=backend, progress=progress, notice=notice)
     if not report.interrupted:
         tables = leave_summary(path)
@@ -82,7 +81,7 @@ def _larger(
     runs: int | None,
     detectors: Sequence[str],
     scenarios: Sequence[str],
-    aside: Path,
+    written: Path,
 ) -> Campaign:
     """The campaign that the folder is to hold, written with everything it stands on into a folder of its own."""
     given = None if campaign is None else read_campaign(Path(campaign))
@@ -104,7 +103,7 @@ def _larger(
             content["detectors"] = [*content["detectors"], design.base]
         files[f"detectors/{design.base}.yaml"] = design.text.encode()
         files |= {f"detectors/{name}": text for name, text in design.files.items()}
-    return campaign_aside(content, files, aside, "the larger campaign")
+    return campaign_in(written, content, files)
 
 
 def _scenarios(given: Campaign, wanted: Sequence[str]) -> list[dict[str, Any]]:

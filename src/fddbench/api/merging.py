@@ -3,12 +3,11 @@
 from collections.abc import Sequence
 from os.path import realpath
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import yaml
 
-from fddbench.api.aside import campaign_aside
+from fddbench.api.aside import aside, campaign_in
 from fddbench.api.tables import leave_summary
 from fddbench.campaign.meaning import Campaign
 from fddbench.errors import FddbenchError
@@ -60,13 +59,13 @@ def merge(folders: Sequence[str | Path], output: str | Path) -> Holdings:
         if key not in read or changed_files(path):
             read[key] = frozen(path)
         parts[path] = read[key]
-    with TemporaryDirectory() as aside:
-        merge_into(out, parts, _whole(list(parts.values()), Path(aside)))
+    with aside("the campaign of all") as written:
+        merge_into(out, parts, _whole(list(parts.values()), written))
     leave_summary(out)
     return holdings(out)
 
 
-def _whole(campaigns: Sequence[Campaign], aside: Path) -> Campaign:
+def _whole(campaigns: Sequence[Campaign], written: Path) -> Campaign:
     """Campaign that has what any of them has; what they contradict each other in is found by `merge_into`."""
     content: dict[str, Any] = yaml.safe_load(campaigns[0].text)
     files: dict[str, bytes] = {}
@@ -78,7 +77,7 @@ def _whole(campaigns: Sequence[Campaign], aside: Path) -> Campaign:
             content[key] = [*content[key], *(entry for entry in other[key] if _name(entry, name) not in known)]
         _widen(content.get("dispersions") or {}, other.get("dispersions") or {})
         _more_runs(content["scenarios"], other["scenarios"])
-    return campaign_aside(content, files, aside, "the campaign of all")
+    return campaign_in(written, content, files)
 
 
 def _name(entry: Any, key: str) -> str:

@@ -25,15 +25,22 @@ from fddbench.campaign.schema.described import described, titled
 from fddbench.campaign.schema.names import name_rules
 from fddbench.campaign.schema.parts import DIALECT, FILE_KIND, Schema, one_of_names, when
 from fddbench.interfaces import Benchmark, Choice
+from fddbench.interfaces.benchmark import default_choices
 from fddbench.metrics.requirements import MEASURES
 
-__all__ = ["benchmark_schema", "written_schema"]
+__all__ = ["HEALTHY_WITHOUT_LIMIT", "benchmark_schema", "written_schema"]
 
 _MODELS = (
     Dispersions, Distribution, MonteCarlo, Normal, TruncatedNormal, ReportEntry, RequirementEntry, ScenarioEntry, Sweep,
     SweptDesign,
 )  # fmt: skip
 _DATA_FILE = r"\.ya?ml$"
+
+HEALTHY_WITHOUT_LIMIT: Schema = when(
+    {"not": {"required": ["faults"], "properties": {"faults": {"minItems": 1}}}},
+    {"properties": {"detection_time_limit_s": {"type": "null"}}},
+)
+"""A scenario without faults has no limit, where what flies brings no faults of its own."""
 
 
 def benchmark_schema(benchmark: Benchmark, *, called: str = "", designs: Sequence[str] = ()) -> dict[str, Any]:
@@ -62,6 +69,8 @@ def benchmark_schema(benchmark: Benchmark, *, called: str = "", designs: Sequenc
     properties["detectors"]["items"] = {
         "anyOf": [{"$ref": "#/$defs/design"}, {"$ref": "#/$defs/SweptDesign"}],
     }
+    if not hasattr(benchmark.plant(default_choices(benchmark)), "labelled"):
+        definitions["ScenarioEntry"]["allOf"] = [HEALTHY_WITHOUT_LIMIT]
     rules = list(name_rules(benchmark, definitions))
     del schema["description"]
     return {
@@ -85,9 +94,6 @@ def written_schema(choices: tuple[str, ...]) -> Schema:
     for name in ("Distribution", "Sweep"):
         definitions[name] |= {"minProperties": 1, "maxProperties": 1}
     definitions["MonteCarlo"]["properties"]["runs"]["maximum"] = MOST_CASES
-    healthy = {"not": {"required": ["faults"], "properties": {"faults": {"minItems": 1}}}}
-    no_limit = {"properties": {"detection_time_limit_s": {"type": "null"}}}
-    definitions["ScenarioEntry"]["allOf"] = [when(healthy, no_limit)]
     definitions["RequirementEntry"]["allOf"] = list(_limits())
     schema["properties"]["detectors"]["uniqueItems"] = True
     tuning = {"properties": {"purpose": {"const": "tuning"}}, "required": ["purpose"]}
