@@ -149,3 +149,16 @@ def test_commands_of_worst_flights_fly_again(flown, page):
     case = f"{data['s'][2]['n']}/{data['c'][2][1]['w'][0]}"
     assert case in set(fddbench.load(flown, ["case"])["case"])
     assert data["f"] == Markup(flown.as_posix())
+
+
+def test_an_alarm_before_the_onset_is_a_failure_where_a_picture_looks_for_most_of_them():
+    from types import SimpleNamespace
+
+    from fddbench.api.report_pictures import _scenario
+
+    lines = (
+        {"wrong_site": 1, "late": None, "missed": 0, "false_alarm": 0},
+        {"wrong_site": 0, "late": 0, "missed": 0, "false_alarm": 2},
+    )
+    cells = {(s, 0): SimpleNamespace(line=line, incidence=True) for s, line in enumerate(lines)}
+    assert _scenario(SimpleNamespace(scenarios=("calm", "gusty")), cells, "") == 1

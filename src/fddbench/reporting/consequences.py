@@ -7,21 +7,15 @@ import pandas as pd
 
 from fddbench.interfaces import Consequence, Floats
 from fddbench.reporting.formats import DASH, count, short
+from fddbench.reporting.labels import label
 from fddbench.reporting.tables import Cell
-from fddbench.units import suffix_of_name, unit_of_name
 
 __all__ = ["consequence_heads", "consequence_lines"]
 
 
 def consequence_heads(announced: Sequence[Consequence]) -> tuple[str, ...]:
     """Heads of `consequence_lines`: scenario, flights, and the columns in words, ``peak bank [deg]``."""
-    return ("scenario", "flights", *(_in_words(each.name) for each in announced))
-
-
-def _in_words(column: str) -> str:
-    unit = unit_of_name(column)
-    name = column.removesuffix(suffix_of_name(column)).replace("_", " ")
-    return f"{name} [{unit}]" if unit else name
+    return ("scenario", "flights", *(label(each.name) for each in announced))
 
 
 def consequence_lines(rows: pd.DataFrame, announced: Sequence[Consequence]) -> list[list[Cell]]:
