@@ -111,6 +111,15 @@ def test_several_folders_are_compared(flown, tmp_path, capsys):
     assert "none is no folder" in capsys.readouterr().err
 
 
+def test_who_sees_the_voted_signal_alone_comes_last_beside_other_folders_too(flown, monkeypatch):
+    from fddbench.api import comparison_data
+
+    best = comparison_data.comparison_data([flown]).folders[0].ranks[0][1]
+    monkeypatch.setattr(comparison_data, "voted_only", lambda _: (best,))
+    (folder,) = comparison_data.comparison_data([flown]).folders
+    assert folder.ranks[-1][1:3] == (best, "sees the voted signal")
+
+
 @pytest.mark.parametrize(
     "draw",
     [
