@@ -92,7 +92,7 @@ def answer(
     for course in courses:
         said += _along(course)
     if len(decided) == 1 or any(line.right.hits < line.decided for line in decided):
-        said += _weakness(best)
+        said += _weakness(best, "It" if len(decided) == 1 else best.detector)
     said += _false_alarms(best, loudest)
     return said
 
@@ -169,11 +169,11 @@ def _from_to(each: tuple[str, float, float]) -> Said:
     return [(f"{percent(first)} to {percent(last)} %", True), (f" with {name}", False)]
 
 
-def _weakness(best: Rank) -> Said:
-    """Where it fails, by its name, for a sentence before may have named several."""
-    said: Said = [(best.detector, True)]
+def _weakness(best: Rank, who: str) -> Said:
+    """Where it fails; by its name where a sentence before has named several."""
+    said: Said = [(who, who == best.detector)]
     if best.weakest is None:
-        said.append((" fails in none of them. ", False))
+        said.append((" fails in no flight. ", False))
     else:
         worst = best.weakest
         said += [(" fails most in ", False), (worst.scenario, True),
