@@ -16,6 +16,7 @@ from fddbench.reporting.consequences import consequence_heads, consequence_lines
 from fddbench.reporting.guarantees import guarantee_lines
 from fddbench.reporting.labels import OUTCOMES
 from fddbench.reporting.page.answer import answer
+from fddbench.reporting.page.asked import asked
 from fddbench.reporting.page.cells import Cell, cells
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.page.convergence import convergence_scene
@@ -89,7 +90,14 @@ def _head(report: ReportData, ranks: Sequence[Rank], columns: Columns) -> dict[s
         "settings": {n: report.campaign[n] for n in names if report.campaign.get(n) not in (None, "")},
         "partial": report.partial,
         "flown": headlines.flown_sentence(report.rows),
-        "answer": answer(
+        "answer": asked(
+            str(report.campaign.get("about") or ""),
+            report.rows,
+            report.consequences,
+            [each.scenario for each in report.recordings if each.cases],
+            commander=str(report.campaign.get("reconfigure") or ""),
+        )
+        + answer(
             ranks,
             second_beside_best(columns, ranks),
             courses=courses(columns, report.swept),
