@@ -111,6 +111,15 @@ def test_several_folders_are_compared(flown, tmp_path, capsys):
     assert "none is no folder" in capsys.readouterr().err
 
 
+def test_who_sees_the_voted_signal_alone_comes_last_beside_other_folders_too(flown, monkeypatch):
+    from fddbench.api import comparison_data
+
+    best = comparison_data.comparison_data([flown]).folders[0].ranks[0][1]
+    monkeypatch.setattr(comparison_data, "voted_only", lambda _: (best,))
+    (folder,) = comparison_data.comparison_data([flown]).folders
+    assert folder.ranks[-1][1:3] == (best, "sees the voted signal")
+
+
 @pytest.mark.parametrize(
     "draw",
     [
@@ -149,3 +158,16 @@ def test_commands_of_worst_flights_fly_again(flown, page):
     case = f"{data['s'][2]['n']}/{data['c'][2][1]['w'][0]}"
     assert case in set(fddbench.load(flown, ["case"])["case"])
     assert data["f"] == Markup(flown.as_posix())
+
+
+def test_an_alarm_before_the_onset_is_a_failure_where_a_picture_looks_for_most_of_them():
+    from types import SimpleNamespace
+
+    from fddbench.api.report_pictures import _scenario
+
+    lines = (
+        {"wrong_site": 1, "late": None, "missed": 0, "false_alarm": 0},
+        {"wrong_site": 0, "late": 0, "missed": 0, "false_alarm": 2},
+    )
+    cells = {(s, 0): SimpleNamespace(line=line, incidence=True) for s, line in enumerate(lines)}
+    assert _scenario(SimpleNamespace(scenarios=("calm", "gusty")), cells, "") == 1

@@ -40,7 +40,7 @@ COMPARISON = pa.schema(
         column("high", pa.float64(), "upper end"),
         column("p_value", pa.float64(), "exact sign test by run, two-sided; with one flight a run McNemar's"),
         column("p_holm", pa.float64(), "the same, adjusted for all lines of the table"),
-        column("verdict", pa.string(), "better, worse, or null where chance explains it (p_holm 0.05 or more)"),
+        column("verdict", pa.string(), "better, worse, or null where chance may explain it (p_holm 0.05 or more)"),
     ]
 )
 

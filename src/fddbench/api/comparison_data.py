@@ -4,12 +4,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from fddbench.api.comparing import compare
+from fddbench.api.findings import voted_only
 from fddbench.errors import FddbenchError
 from fddbench.metrics.alarms import summarize_alarms
 from fddbench.reporting.page.answer import answer
 from fddbench.reporting.page.columns import NEEDS, Columns
 from fddbench.reporting.page.comparison import ComparedFolder, Comparison
-from fddbench.reporting.page.ranking import beside_best, ranking
+from fddbench.reporting.page.ranking import ranking, second_beside_best
 from fddbench.reporting.page.ranks import rank_lines
 from fddbench.results.table import read_rows
 from fddbench.results.whole import holdings
@@ -40,10 +41,9 @@ def _folder(path: Path) -> ComparedFolder:
     campaign, found = frozen(path), holdings(path)
     rows = read_rows(path, list(NEEDS))
     columns = Columns(rows)
-    ranks = ranking(columns, summarize_alarms(rows, in_sample=campaign.in_sample), in_sample=campaign.in_sample)
-    known = [line for line in ranks if line.decided]
-    second = beside_best(columns, known[0].number, known[1].number) if len(known) > 1 else None
+    own = campaign.in_sample
+    ranks = ranking(columns, summarize_alarms(rows, in_sample=own), in_sample=own, voted=voted_only(campaign))
     return ComparedFolder(
         folder=path.as_posix(), campaign=campaign.name, about=campaign.about, partial=found.sentence if found.partial else "",
-        answer=answer(ranks, second), ranks=rank_lines(ranks),
+        answer=answer(ranks, second_beside_best(columns, ranks)), ranks=rank_lines(ranks),
     )  # fmt: skip

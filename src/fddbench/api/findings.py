@@ -11,7 +11,7 @@ from fddbench.results.folder import provenance_of
 from fddbench.results.whole import require_whole
 from fddbench.runner.fingerprint import frozen
 
-__all__ = ["finding", "swept_columns"]
+__all__ = ["finding", "swept_columns", "voted_only"]
 
 
 def finding(folder: str | Path) -> str:
@@ -41,7 +41,7 @@ def finding(folder: str | Path) -> str:
         question=_question(campaign),
         swept=swept,
         in_sample=campaign.in_sample,
-        apart=_voted_only(campaign),
+        apart=voted_only(campaign),
         footer=(
             f"<!-- seed {campaign.seed}, campaign {campaign.sha256[:16]}, fddbench {provenance['fddbench']}; written by "
             f"`fddbench finding` -->"
@@ -65,6 +65,6 @@ def _question(campaign: Campaign) -> str:
     return text[: text.rindex("?") + 1] if "?" in text else text
 
 
-def _voted_only(campaign: Campaign) -> tuple[str, ...]:
+def voted_only(campaign: Campaign) -> tuple[str, ...]:
     """Detectors whose kind says that it sees the voted signal alone."""
     return tuple(d.name for d in campaign.designs if getattr(d.kind.member, "sees", "sensors") == "voted")

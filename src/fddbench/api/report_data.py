@@ -16,7 +16,7 @@ from fddbench.api.findings import swept_columns
 from fddbench.api.requiring import judgements
 from fddbench.campaign.meaning import Campaign
 from fddbench.reporting.bands import names_in
-from fddbench.reporting.page.columns import NEEDS
+from fddbench.reporting.page.columns import FAILED, NEEDS
 from fddbench.reporting.page.data import ReportData
 from fddbench.reporting.page.promises import promise_of
 from fddbench.reporting.page.traces import MOST_SCENARIOS
@@ -125,7 +125,7 @@ def _pictured(rows: pd.DataFrame, content: Mapping[str, Any]) -> pd.DataFrame:
 
 def _worst_scenarios(rows: pd.DataFrame) -> list[str]:
     """So many scenarios as a page shows, those with the largest share of failed rows; in the order of the campaign."""
-    failed = rows["outcome"].isin(["false_alarm", "wrong_site", "late", "missed"]).astype("float64")
+    failed = rows["outcome"].isin(list(FAILED)).astype("float64")
     shares = failed.groupby(rows["scenario"], sort=False).mean().sort_values(ascending=False, kind="stable")
     chosen = set(shares.index[:MOST_SCENARIOS])
     return [str(name) for name in rows["scenario"].unique() if name in chosen]

@@ -12,7 +12,7 @@ from fddbench.metrics.alarms import summarize_alarms
 from fddbench.metrics.summary import summarize
 from fddbench.reporting.labels import label
 from fddbench.reporting.page.cells import Cell, cells
-from fddbench.reporting.page.columns import Columns
+from fddbench.reporting.page.columns import FAILED, Columns
 from fddbench.reporting.page.envelope import envelope_pairs, failed_map
 from fddbench.reporting.page.matrix import matrix_scene
 from fddbench.reporting.page.operating import MEASURES, operating_scene
@@ -206,5 +206,5 @@ def _scenario(columns: Columns, own: dict[tuple[int, int], Cell], name: str) -> 
         raise FddbenchError("no flight with a fault was flown")
     for (s, _), cell in own.items():
         if s in failed:
-            failed[s] += sum(cell.line[key] or 0 for key in ("wrong_site", "late", "missed"))
+            failed[s] += sum(cell.line[key] or 0 for key in FAILED)
     return max(failed, key=lambda s: failed[s])

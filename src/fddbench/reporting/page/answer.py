@@ -86,17 +86,18 @@ def answer(
             (f": all {count(n)} faulty flights end before the limit of their fault without a declaration. ", False),
             *_healthy(ranks, loudest),
         ]
-    best = ranks[0]
-    said = _verdict(ranks, second)
+    decided = [line for line in ranks if line.decided]
+    best = decided[0]
+    said = _verdict(decided, second)
     for course in courses:
         said += _along(course)
-    said += _weakness(best)
+    if len(decided) == 1 or any(line.right.hits < line.decided for line in decided):
+        said += _weakness(best, "It" if len(decided) == 1 else best.detector)
     said += _false_alarms(best, loudest)
     return said
 
 
-def _verdict(ranks: Sequence[Rank], second: PairedShares | None) -> Said:
-    decided = [line for line in ranks if line.decided]
+def _verdict(decided: Sequence[Rank], second: PairedShares | None) -> Said:
     best, n = decided[0], f"{count(decided[0].decided)} decided faulty flight{'' if decided[0].decided == 1 else 's'}"
     right = [line.right.hits == line.decided for line in decided]
     who = "Both detectors" if len(decided) == 2 else f"All {len(decided)} detectors"
@@ -116,8 +117,11 @@ def _best(decided: Sequence[Rank], second: PairedShares | None) -> Said:
         return [(f"First of {len(decided)}, on other flights than the second: ", False), (best.detector, True), (", ", False),
                 *_share(best)]  # fmt: skip
     if second.only_a == second.only_b == 0:
+        same = (best.right.hits, best.decided)
+        also = [line.detector for line in decided[2:] if (line.right.hits, line.decided) == same]
+        as_often = f"{' and '.join(filter(None, [', '.join(also[:-1]), also[-1]]))} as often, " if also else ""
         return [("Not decided: ", False), (best.detector, True), (" and ", False), (other.detector, True),
-                (" are right in the same flights, ", False), *_share(best)]  # fmt: skip
+                (f" are right in the same flights, {as_often}", False), *_share(best)]  # fmt: skip
     if second.p_value is None or second.p_value >= _SURE or second.runs < 2:
         p = f"p = {second.p_value:.2g}" if second.p_value is not None and second.runs > 1 else "one run is no test"
         share = f", {percent(_percent(best))} and {percent(_percent(other))} % of faulty flights right in time ({p}). "
@@ -149,10 +153,10 @@ def _bound(line: Rank) -> str:
 
 
 def _along(course: Course) -> Said:
-    """Who loses most and who loses least between the first and the last value."""
-    if not course.shares:
-        return []
+    """Who loses most and who loses least between the first and the last value; nothing where nobody's share changes."""
     losses = sorted(course.shares, key=lambda each: each[2] - each[1])
+    if all(first == last for _, first, last in losses):
+        return []
     most, least = losses[0], losses[-1]
     text: Said = [(f"From {course.name} {course.first} to {course.last} right goes from ", False), *_from_to(most)]
     if least[0] != most[0]:
@@ -165,13 +169,14 @@ def _from_to(each: tuple[str, float, float]) -> Said:
     return [(f"{percent(first)} to {percent(last)} %", True), (f" with {name}", False)]
 
 
-def _weakness(best: Rank) -> Said:
-    said: Said = []
+def _weakness(best: Rank, who: str) -> Said:
+    """Where it fails; by its name where a sentence before has named several."""
+    said: Said = [(who, who == best.detector)]
     if best.weakest is None:
-        said.append(("It fails in none of them. ", False)) if best.decided else None
+        said.append((" fails in no flight. ", False))
     else:
         worst = best.weakest
-        said += [("It fails most in ", False), (worst.scenario, True),
+        said += [(" fails most in ", False), (worst.scenario, True),
                  (f": {count(worst.failed)} of {count(worst.decided)} flights. ", False)]  # fmt: skip
     wrong = best.outcomes.get("wrong_site", 0)
     flights = f"{count(wrong)} flight{'' if wrong == 1 else 's'}"

@@ -7,7 +7,6 @@ import pandas as pd
 
 from fddbench.metrics.alarms import summarize_alarms
 from fddbench.metrics.bound import breaches, with_bounds
-from fddbench.metrics.paired import PairedShares
 from fddbench.metrics.summary import summarize
 from fddbench.reporting import detectability, headlines, infeasible, tables
 from fddbench.reporting.bands import band_sections
@@ -17,6 +16,7 @@ from fddbench.reporting.consequences import consequence_heads, consequence_lines
 from fddbench.reporting.guarantees import guarantee_lines
 from fddbench.reporting.labels import OUTCOMES
 from fddbench.reporting.page.answer import answer
+from fddbench.reporting.page.asked import asked
 from fddbench.reporting.page.cells import Cell, cells
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.page.convergence import convergence_scene
@@ -26,7 +26,7 @@ from fddbench.reporting.page.envelope import envelope_maps, envelope_pairs, infe
 from fddbench.reporting.page.matrix import matrix_lines
 from fddbench.reporting.page.operating import operating_scenes
 from fddbench.reporting.page.payload import payload
-from fddbench.reporting.page.ranking import Rank, beside_best, ranking
+from fddbench.reporting.page.ranking import Rank, ranking, second_beside_best
 from fddbench.reporting.page.ranks import rank_lines
 from fddbench.reporting.page.requirements import requirement_lines, requirement_sentence
 from fddbench.reporting.page.traces import signal_sections
@@ -90,19 +90,23 @@ def _head(report: ReportData, ranks: Sequence[Rank], columns: Columns) -> dict[s
         "settings": {n: report.campaign[n] for n in names if report.campaign.get(n) not in (None, "")},
         "partial": report.partial,
         "flown": headlines.flown_sentence(report.rows),
-        "answer": answer(
-            ranks, _second(columns, ranks), courses=courses(columns, report.swept), loudest=loudest(columns, ranks)
+        "answer": asked(
+            str(report.campaign.get("about") or ""),
+            report.rows,
+            report.consequences,
+            [each.scenario for each in report.recordings if each.cases],
+            commander=str(report.campaign.get("reconfigure") or ""),
+        )
+        + answer(
+            ranks,
+            second_beside_best(columns, ranks),
+            courses=courses(columns, report.swept),
+            loudest=loudest(columns, ranks),
         ),
         "in_sample": report.in_sample,
         "requirements": requirement_lines(report.requirements),
         "required": requirement_sentence(report.requirements),
     }
-
-
-def _second(columns: Columns, ranks: Sequence[Rank]) -> PairedShares | None:
-    """The second of the ranking beside the first."""
-    known = [line for line in ranks if line.decided]
-    return beside_best(columns, known[0].number, known[1].number) if len(known) > 1 else None
 
 
 _MOST_MAPS = 6

@@ -25,8 +25,8 @@ Data = dict[str, Any]
 
 
 def counts_of(line: Mapping[Any, Any]) -> dict[str, int]:
-    """Flights of a cell by outcome, those that it has."""
-    names = ("quiet", "false_alarm") if line["healthy"] else ORDER
+    """Flights of a cell by outcome, those that it has; a scenario of logs may have quiet flights beside faulty ones."""
+    names = ("quiet", "false_alarm") if line["healthy"] else (*ORDER, "quiet")
     return {name: int(line[name]) for name in names if present(line[name])}
 
 
@@ -70,6 +70,8 @@ def _cell(cell: Cell) -> Data:
     counts = counts_of(line)
     names = ("quiet", *ORDER[1:]) if line["healthy"] else ORDER
     found: Data = {"o": [counts.get(name, 0) for name in names], "n": int(line["flown"])}
+    if not line["healthy"]:
+        found["o"][0] += counts.get("quiet", 0)  # what went well, as in the bar
     lost = [int(line[name]) for name in ("infeasible", "failed", "departed")]
     if any(lost):
         found["z"] = lost

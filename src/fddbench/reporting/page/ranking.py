@@ -1,6 +1,6 @@
 """The detectors of a campaign, best first: one line each, over all faulty scenarios together."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,7 +11,7 @@ from fddbench.metrics.clustered import PooledShare, korn_graubard
 from fddbench.metrics.paired import PairedShares, paired_shares
 from fddbench.reporting.page.columns import Columns
 
-__all__ = ["Rank", "Weakest", "beside_best", "ranking"]
+__all__ = ["Rank", "Weakest", "beside_best", "ranking", "second_beside_best"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -130,3 +130,9 @@ def beside_best(columns: Columns, best: int, other: int, scenario: int | None = 
     a, b = both["right_a"].to_numpy(dtype=bool), both["right_b"].to_numpy(dtype=bool)
     run = both["run"].to_numpy()
     return paired_shares(a, b, run)
+
+
+def second_beside_best(columns: Columns, ranks: Sequence[Rank]) -> PairedShares | None:
+    """The second of those with a decided flight beside the first; None where there are not two."""
+    known = [line.number for line in ranks if line.decided]
+    return beside_best(columns, known[0], known[1]) if len(known) > 1 else None

@@ -7,7 +7,7 @@ import numpy as np
 
 from fddbench.interfaces import Floats
 from fddbench.metrics.association import parted
-from fddbench.metrics.clustered import pooled_intervals
+from fddbench.metrics.clustered import counts_by_run, pooled_intervals
 from fddbench.metrics.smallest import Smallest, smallest_found
 from fddbench.reporting.page.columns import Columns
 
@@ -57,11 +57,7 @@ def size_curve(columns: Columns, sure: "np.ndarray[Any, Any]") -> SizeCurve | No
     if parts is None:
         return None
     right = columns.texts("outcome")[own] == "right"
-    _, runs = np.unique(columns.whole("run", own), return_inverse=True)
-    shape = (int(runs.max()) + 1, len(parts.low))
-    hits, trials = np.zeros(shape), np.zeros(shape)
-    np.add.at(trials, (runs, parts.place), 1.0)
-    np.add.at(hits, (runs[right], parts.place[right]), 1.0)
+    hits, trials = counts_by_run(parts.place, right, columns.whole("run", own), len(parts.low))
     low, high = pooled_intervals(hits, trials)
     return SizeCurve(
         name=names[0], low=parts.low, high=parts.high, right=hits.sum(axis=0), flights=trials.sum(axis=0),

@@ -82,7 +82,7 @@ function beside(c) {
   if (!c.b) return '';
   const [diff, lo, hi, p, a, b, n] = c.b;
   const best = esc(document.getElementById('detail').dataset.best || '');
-  const said = p !== null && p < .05 ? '' : ' Chance explains it.';
+  const said = p !== null && p < .05 ? '' : ' Chance may explain it.';
   return `<p>Beside ${best} on the same ${thin(n)} flights: ${diff > 0 ? '+' : ''}${diff} % right${lo === null ? '' : ` (${lo} to ${hi})`}; right here alone ${thin(b)}, there alone ${thin(a)}; McNemar by run, Holm over scenarios: p = ${p === null ? '–' : p}.${said}</p>`;
 }
 function detail() {
