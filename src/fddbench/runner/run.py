@@ -20,7 +20,7 @@ from fddbench.runner.engines import Engine
 from fddbench.runner.fingerprint import fingerprint_of, provenance_for
 from fddbench.runner.flight import Flyer
 from fddbench.runner.in_c import InC
-from fddbench.runner.left import Part, Wanted, left_in
+from fddbench.runner.left import Left, Part, Wanted, left_in
 from fddbench.runner.pool import fly_all
 from fddbench.runner.rehearsal import rehearsed
 from fddbench.runner.work import Work, lent
@@ -127,9 +127,8 @@ def run_campaign(
         # workers of an earlier run may still be there, in the working folder of that time
         work = Work(folder=str(folder.absolute()), fingerprint=fingerprint.sha256, backend=backend)
         interrupted = any(_fly_part(flyer, work, part, engine=own, chunk=chunk, told=told) for part in left.parts)
-        if interrupted:  # perhaps between the listing of a shard and its count
-            there = left_in(folder, say, wanted=left.wanted)
-            told.flown, told.statuses = told.total - there.n_left - told.before, there.statuses
+        if interrupted:
+            told.anew(left_in(folder, say, wanted=left.wanted))
         else:
             _few_files(folder, fingerprint.sha256, say)
     return _report(folder, told, interrupted=interrupted, wall_s=time.monotonic() - begun)
@@ -189,6 +188,10 @@ class _Told:
         self.flown += sum(count for _, count in shard.cases)
         self.statuses.update(shard.statuses)
         self.tell()
+
+    def anew(self, there: Left) -> None:
+        """Count what is there; Ctrl-C may have come between the listing of a shard and its count."""
+        self.flown, self.statuses = self.total - there.n_left - self.before, there.statuses
 
     def tell(self) -> None:
         """Say how far it is."""
