@@ -12,6 +12,7 @@ from fddbench.reporting.page.columns import NEEDS, Columns
 from fddbench.reporting.page.comparison import ComparedFolder, Comparison
 from fddbench.reporting.page.ranking import ranking, second_beside_best
 from fddbench.reporting.page.ranks import rank_lines
+from fddbench.results.kept import kept_of
 from fddbench.results.table import read_rows
 from fddbench.results.whole import holdings
 from fddbench.runner.fingerprint import frozen
@@ -38,12 +39,13 @@ def comparison_data(folders: Sequence[Path]) -> Comparison:
 
 
 def _folder(path: Path) -> ComparedFolder:
-    campaign, found = frozen(path), holdings(path)
-    rows = read_rows(path, list(NEEDS))
+    campaign, found, kept = frozen(path), holdings(path), kept_of(path)
+    rows = read_rows(path, list(NEEDS), fair=True)
     columns = Columns(rows)
     own = campaign.in_sample
+    short = "; ".join(filter(None, [found.sentence if found.partial else "", f"only {kept.first}" if kept else ""]))
     ranks = ranking(columns, summarize_alarms(rows, in_sample=own), in_sample=own, voted=voted_only(campaign))
     return ComparedFolder(
-        folder=path.as_posix(), campaign=campaign.name, about=campaign.about, partial=found.sentence if found.partial else "",
+        folder=path.as_posix(), campaign=campaign.name, about=campaign.about, partial=short,
         answer=answer(ranks, second_beside_best(columns, ranks)), ranks=rank_lines(ranks),
     )  # fmt: skip

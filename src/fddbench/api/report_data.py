@@ -14,6 +14,7 @@ from fddbench.api.curves import operating_of
 from fddbench.api.detectability import detectable_of
 from fddbench.api.findings import swept_columns
 from fddbench.api.requiring import judgements
+from fddbench.api.tables import overview
 from fddbench.campaign.meaning import Campaign
 from fddbench.reporting.bands import names_in
 from fddbench.reporting.page.columns import FAILED, NEEDS
@@ -23,6 +24,7 @@ from fddbench.reporting.page.traces import MOST_SCENARIOS
 from fddbench.reporting.published import iterations_for, published_for
 from fddbench.reporting.reasons import reason_table
 from fddbench.results.folder import provenance_of
+from fddbench.results.kept import kept_of
 from fddbench.results.schema import rows_schema
 from fddbench.results.table import column_names, read_events, read_rows
 from fddbench.results.whole import holdings
@@ -62,16 +64,16 @@ def report_data(folder: Path, *, replay: bool = True) -> ReportData:
     FddbenchError
         No folder of results, or one that is damaged.
     """
-    provenance, found = provenance_of(folder), holdings(folder)
+    provenance, found, kept = provenance_of(folder), holdings(folder), kept_of(folder)
     campaign = frozen(folder)
     content: dict[str, Any] = {name: getattr(campaign, name) for name in _SETTINGS} | dict(campaign.choices)
     content |= yaml.safe_load(campaign.text)
     assembly, bench = assemble(campaign), campaign.bench
-    rows = read_rows(folder, _columns(folder))
+    rows = read_rows(folder, _columns(folder), fair=True)
     return ReportData(
         campaign=content,
         rows=rows,
-        events=read_events(folder, _OF_EVENTS),
+        events=read_events(folder, _OF_EVENTS, fair=True),
         provenance=_flat(provenance) | _replayed(folder, campaign),
         designs=_designs(campaign, assembly),
         **(_flown_again(campaign, rows, content) if replay else {"recordings": []}),
@@ -84,6 +86,8 @@ def report_data(folder: Path, *, replay: bool = True) -> ReportData:
         in_sample=campaign.in_sample,
         limits_from=bench.limits_from,
         partial=found.sentence if found.partial else "",
+        kept=kept.first if kept else "",
+        counted=overview(folder)[0] if kept else None,
         detectable=detectable_of(rows, campaign),
         consequences=assembly.consequences.announced,
         swept=swept_columns(rows, campaign),

@@ -76,7 +76,7 @@ def judgements(
     names = [*dict.fromkeys((*NEEDS, *columns))]
     if rows is None or not set(names) <= set(rows.columns):
         there = bool(shards(Path(folder)))
-        rows = read_rows(Path(folder), names) if there else pd.DataFrame(columns=names)
+        rows = read_rows(Path(folder), names, fair=True) if there else pd.DataFrame(columns=names)
     by_detector = {str(name): part for name, part in rows[names].groupby("detector", sort=False)}
     return [one for entry in own.requirements for one in _of_entry(entry, own, case_table, by_detector)]
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.plan import Plan, PlannedScenario
-from fddbench.campaign.rules.model import Dispersions, Distribution
+from fddbench.campaign.rules.dispersions import Dispersions, Distribution
 from fddbench.campaign.rules.required import name_of
 from fddbench.campaign.variation import at_levels
 from fddbench.designs.design import Design
