@@ -135,6 +135,7 @@ def _pictures(report: ReportData, columns: Columns, ranks: Sequence[Rank], alarm
         "bands": band_sections(report.bands, report.responses, report.shown),
         "signals": signal_sections(report.recordings, report.rows, [line.detector for line in ranks], promises),
         "promised": bool(promises),
+        "unflown": report.unflown,
     }
 
 
