@@ -27,7 +27,7 @@ from fddbench.reporting.page.matrix import matrix_lines
 from fddbench.reporting.page.operating import operating_scenes
 from fddbench.reporting.page.payload import payload
 from fddbench.reporting.page.ranking import Rank, ranking, second_beside_best
-from fddbench.reporting.page.ranks import rank_lines
+from fddbench.reporting.page.ranks import rank_lines, silence
 from fddbench.reporting.page.requirements import requirement_lines, requirement_sentence
 from fddbench.reporting.page.traces import signal_sections
 from fddbench.reporting.reasons import REASONS
@@ -54,6 +54,7 @@ def content(report: ReportData) -> dict[str, Any]:
         **_head(report, ranks, columns),
         "payload": payload(columns, own, report.folder),
         "ranks": rank_lines(ranks),
+        "silence": silence(ranks),
         "best": ranks[0].detector if best is not None else "",
         "detectors": list(columns.detectors),
         "matrix": matrix_lines(columns, own),
