@@ -3,6 +3,7 @@
 import json
 import os
 import shutil
+from hashlib import sha256
 from pathlib import Path
 
 import pytest
@@ -66,6 +67,38 @@ def test_code_from_elsewhere_is_not_run(elsewhere, capsys, command):
     assert main([command[0], str(out), *command[1:]]) in {0, 2}
     assert not mark.exists()
     assert "cusum_example.py" in capsys.readouterr().err
+
+
+def test_a_page_from_elsewhere_is_written_from_the_rows_and_says_what_it_lacks(elsewhere, capsys):
+    out, mark = elsewhere
+    assert main(["report", str(out)]) == 0
+    assert "Its page is written from the rows alone" in capsys.readouterr().err
+    page = (out / "report.html").read_text(encoding="utf-8")
+    assert not mark.exists()
+    assert "No false alarm" in page
+    assert "<svg" in page
+    place = page[page.index('id="h-signals"') :][:900]
+    assert "Not drawn" in place
+    assert "cusum_example.py" in place
+    assert "--trust" in place
+    copy = shutil.copytree(out, out.parent / "copy")
+    assert main(["report", str(out), str(copy)]) == 0
+    assert not mark.exists()
+    assert main(["report", str(out), "--trust"]) == 0
+    assert mark.exists()
+    assert "Not drawn" not in (out / "report.html").read_text(encoding="utf-8")
+
+
+def test_a_page_of_frozen_texts_that_are_no_campaign_is_refused(elsewhere, capsys):
+    out, mark = elsewhere
+    provenance, yaml = out / "provenance.json", out / "campaign.yaml"
+    told = json.loads(provenance.read_text())
+    yaml.write_text(yaml.read_text().replace("seed: 7", "seed: [7]"))
+    told["campaign_yaml_sha256"] = sha256(yaml.read_bytes()).hexdigest()
+    provenance.write_text(json.dumps(told))
+    assert main(["report", str(out)]) == 2
+    assert "campaign.yaml:3:7: expected a whole number" in capsys.readouterr().err
+    assert not mark.exists()
 
 
 def test_rows_of_somebody_elses_code_are_counted_without_it(elsewhere):

@@ -6,6 +6,7 @@ import pandas as pd
 
 from fddbench.api.tables import alarms, load
 from fddbench.campaign.meaning import Campaign
+from fddbench.campaign.rules.model import CampaignFile
 from fddbench.errors import ResultsError
 from fddbench.reporting.finding import finding_text
 from fddbench.results.folder import provenance_of
@@ -55,12 +56,12 @@ def finding(folder: str | Path) -> str:
     )
 
 
-def swept_columns(rows: pd.DataFrame, campaign: Campaign) -> list[str]:
+def swept_columns(rows: pd.DataFrame, campaign: Campaign | CampaignFile) -> list[str]:
     """Columns of the rows that hold what the grid or a sweep of a fault varies, of those that differ."""
     return [str(name) for name in rows.columns if _swept(str(name), campaign) and rows[name].nunique() > 1]
 
 
-def _swept(name: str, campaign: Campaign) -> bool:
+def _swept(name: str, campaign: Campaign | CampaignFile) -> bool:
     """Whether a column holds what the grid or a sweep of a fault varies."""
     return name.removeprefix("p_") in campaign.dispersions.grid or (name[:1] == "f" and name[1:2].isdigit())
 

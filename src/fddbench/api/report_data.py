@@ -14,8 +14,10 @@ from fddbench.api.curves import operating_of
 from fddbench.api.detectability import detectable_of
 from fddbench.api.findings import swept_columns
 from fddbench.api.requiring import judgements
+from fddbench.api.rows_alone import rows_alone
 from fddbench.api.tables import overview
 from fddbench.campaign.meaning import Campaign
+from fddbench.errors import ResultsWarning, UntrustedError, warn
 from fddbench.reporting.bands import names_in
 from fddbench.reporting.page.columns import FAILED, NEEDS
 from fddbench.reporting.page.data import ReportData
@@ -54,18 +56,41 @@ _OF_EVENTS = (
 )
 _SETTINGS = ("name", "about", "benchmark", "purpose", "seed", "sample_s", "substeps")
 _AFTER_S, _LEAST_S = 3.0, 5.0
+_NO_REPLAY = "Not drawn: nothing was flown again for this page (--no-replay)."
 
 
 def report_data(folder: Path, *, replay: bool = True) -> ReportData:
     """Everything the page of a folder of results shows; without replay neither signals nor bands nor the bound.
+
+    Of a folder whose plug-ins may not run here it is what rows and frozen texts tell, and why there is no more.
+
+    Warns
+    -----
+    ResultsWarning
+        Its plug-ins are not run.
 
     Raises
     ------
     FddbenchError
         No folder of results, or one that is damaged.
     """
-    provenance, found, kept = provenance_of(folder), holdings(folder), kept_of(folder)
-    campaign = frozen(folder)
+    provenance = provenance_of(folder)
+    try:
+        campaign = frozen(folder)
+    except UntrustedError as error:
+        rows, events = read_rows(folder, _columns(folder), fair=True), read_events(folder, _OF_EVENTS, fair=True)
+        page = rows_alone(folder, rows, events, provenance=_flat(provenance), why=f"{_WITHOUT_CODE}: {error}.")
+        warn(f"{error}. Its page is written from the rows alone", ResultsWarning)
+        return page
+    return _with_code(folder, campaign, provenance, replay=replay)
+
+
+_WITHOUT_CODE = "Not drawn, and neither requirements, operating curves, maps nor consequences are told"
+
+
+def _with_code(folder: Path, campaign: Campaign, provenance: Mapping[str, Any], *, replay: bool) -> ReportData:
+    """Page of a folder whose campaign can be built and flown."""
+    found, kept = holdings(folder), kept_of(folder)
     content: dict[str, Any] = {name: getattr(campaign, name) for name in _SETTINGS} | dict(campaign.choices)
     content |= yaml.safe_load(campaign.text)
     assembly, bench = assemble(campaign), campaign.bench
@@ -76,7 +101,7 @@ def report_data(folder: Path, *, replay: bool = True) -> ReportData:
         events=read_events(folder, _OF_EVENTS, fair=True),
         provenance=_flat(provenance) | _replayed(folder, campaign),
         designs=_designs(campaign, assembly),
-        **(_flown_again(campaign, rows, content) if replay else {"recordings": []}),
+        **(_flown_again(campaign, rows, content) if replay else {"recordings": [], "unflown": _NO_REPLAY}),
         folder=folder.as_posix(),
         reasons=reason_table(campaign.name, campaign.sha256),
         published=published_for(content, getattr(bench, "published", "")),

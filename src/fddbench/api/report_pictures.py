@@ -161,9 +161,10 @@ def envelope(folder: str | Path, detector: str, x: str = "", y: str = "") -> Pic
         No folder of results, no such detector or column, or nothing to map over.
     """
     rows = load(folder, fair=True)
-    columns, campaign = Columns(rows), frozen(Path(folder))
+    columns = Columns(rows)
     d = _place(columns.detectors, detector, "detector")
     if not (x and y):
+        campaign = frozen(Path(folder))
         pairs = envelope_pairs(columns, getattr(campaign.bench, "envelope_axes", ()), swept_columns(rows, campaign))
         if not pairs:
             raise FddbenchError(f"{folder}: no two parameters of the envelope vary; name two columns, x and y")

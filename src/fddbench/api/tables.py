@@ -8,8 +8,8 @@ import numpy as np
 import pandas as pd
 import pyarrow as pa
 
+from fddbench.api.as_written import in_sample_as_written
 from fddbench.api.detectability import detectable_of
-from fddbench.campaign.reading.yaml_nodes import read_yaml
 from fddbench.errors import FddbenchError, UntrustedError
 from fddbench.metrics.alarms import ALARMS, summarize_alarms
 from fddbench.metrics.bound import BOUNDS
@@ -111,18 +111,7 @@ def in_sample(folder: str | Path) -> tuple[str, ...]:
     try:
         return frozen(Path(folder)).in_sample
     except UntrustedError:
-        return _written_in_sample(Path(folder))
-
-
-def _written_in_sample(folder: Path) -> tuple[str, ...]:
-    """What `in_sample` says, from the frozen texts alone."""
-    found = provenance_of(folder)
-    own, tuned = (found["campaign"], found["seed"]), list[str]()
-    for path in sorted(name for name in found["files"] if name.startswith("detectors/") and name.endswith(".yaml")):
-        seen = (read_yaml(folder / path).data or {}).get("tuned_on") or ()
-        if any((entry.get("campaign"), entry.get("seed")) == own for entry in seen):
-            tuned.append(Path(path).stem)
-    return tuple(name for name in found["designs_sha256"] if name.split(".")[0] in tuned)
+        return in_sample_as_written(Path(folder))
 
 
 def columns(table: str = "rows") -> dict[str, str]:

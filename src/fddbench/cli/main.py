@@ -4,6 +4,7 @@ Exit codes: 0 done, 1 done but some cases failed, 2 a mistake in what the user w
 interrupted, 143 ended from outside.
 """
 
+import argparse
 import errno
 import os
 import signal
@@ -42,7 +43,7 @@ def main(argv: list[str] | None = None) -> int:
         with warnings.catch_warnings(), _termination(ended):
             _say_in_words()
             if getattr(args, "trust", False):
-                _trust(args.source if "source" in args else args.folder)
+                _trust(args)
             code: int = args.command(args)
         sys.stdout.flush()
         return _TERMINATED if ended and code == _INTERRUPTED else code
@@ -84,10 +85,14 @@ def _termination(ended: list[int]) -> Iterator[None]:
         signal.signal(signal.SIGTERM, before)
 
 
-def _trust(folder: Path) -> None:
+def _trust(args: argparse.Namespace) -> None:
+    """Let the plug-ins of the folders of a command run."""
+    from fddbench.api.pages import newest
     from fddbench.api.trusting import trust
 
-    trust(folder)
+    named = args.source if "source" in args else args.folders if "folders" in args else args.folder
+    for folder in [named] if isinstance(named, Path) else named or [newest()]:
+        trust(folder)
 
 
 def _say_in_words() -> None:

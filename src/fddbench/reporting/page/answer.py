@@ -193,11 +193,17 @@ def _false_alarms(best: Rank, loudest: Loudest | None) -> Said:
         return []
     high = f" (up to {percent(best.alarms_high_percent)} %)" if best.alarms_high_percent is not None else ""
     number = count(best.alarms) if best.alarms else "none"
-    said: Said = [(f"False alarms: {number} in {count(best.distinct_flights)} distinct flights{high}", False)]
+    said: Said = [(f"False alarms: {number} in {_distinct(best)}{high}", False)]
     if loudest is not None and loudest.alarms:
         said += [("; most of all detectors in ", False), (loudest.scenario, True),
                  (f": {count(loudest.alarms)} of {count(loudest.flights)} with {loudest.detector}", False)]  # fmt: skip
     return [*said, (".", False)]
+
+
+def _distinct(line: Rank) -> str:
+    """``540 distinct flights of 25 runs``; of as many runs where it says nothing of them."""
+    runs = f" of {count(line.runs)} run{'' if line.runs == 1 else 's'}" if line.runs != line.distinct_flights else ""
+    return f"{count(line.distinct_flights)} distinct flight{'' if line.distinct_flights == 1 else 's'}{runs}"
 
 
 def _healthy(ranks: Sequence[Rank], loudest: Loudest | None) -> Said:
@@ -205,11 +211,11 @@ def _healthy(ranks: Sequence[Rank], loudest: Loudest | None) -> Said:
     watched = [line for line in ranks if line.distinct_flights]
     if not watched:
         return [("No healthy stretch was flown either.", False)]
-    n = count(max(line.distinct_flights for line in watched))
+    most_flights = max(watched, key=lambda line: line.distinct_flights)
     if not any(line.alarms for line in watched):
         high = max((line.alarms_high_percent or 0.0) for line in watched)
         upper = f" (up to {percent(high)} % of flights at 95 %)" if high else ""
-        return [("No false alarm", True), (f" of any detector in {n} distinct flights{upper}.", False)]
+        return [("No false alarm", True), (f" of any detector in {_distinct(most_flights)}{upper}.", False)]
     ordered = sorted(watched, key=lambda line: line.alarms / line.distinct_flights)
     least, most = ordered[0], ordered[-1]
     said: Said = [("False alarms: ", False), *_count_of(most)]

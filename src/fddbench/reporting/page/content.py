@@ -28,7 +28,7 @@ from fddbench.reporting.page.matrix import matrix_lines
 from fddbench.reporting.page.operating import operating_scenes
 from fddbench.reporting.page.payload import payload
 from fddbench.reporting.page.ranking import Rank, ranking, second_beside_best
-from fddbench.reporting.page.ranks import rank_lines
+from fddbench.reporting.page.ranks import rank_lines, silence
 from fddbench.reporting.page.requirements import requirement_lines, requirement_sentence
 from fddbench.reporting.page.traces import signal_sections
 from fddbench.reporting.reasons import REASONS
@@ -55,6 +55,7 @@ def content(report: ReportData) -> dict[str, Any]:
         **_head(report, ranks, columns),
         "payload": payload(columns, own, report.folder),
         "ranks": rank_lines(ranks),
+        "silence": silence(ranks),
         "best": ranks[0].detector if best is not None else "",
         "detectors": list(columns.detectors),
         "matrix": matrix_lines(columns, own),
@@ -139,6 +140,7 @@ def _pictures(report: ReportData, columns: Columns, ranks: Sequence[Rank], alarm
         "bands": band_sections(report.bands, report.responses, report.shown),
         "signals": signal_sections(report.recordings, report.rows, [line.detector for line in ranks], promises),
         "promised": bool(promises),
+        "unflown": report.unflown,
     }
 
 

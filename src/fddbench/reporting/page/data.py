@@ -30,6 +30,8 @@ class ReportData:
         Per detector name, kind, source, about, load (of a step, in words), sees ("sensors" or "voted"), sha256.
     recordings : sequence of Recording
         Re-flown cases, one recording per scenario.
+    unflown : str
+        Why nothing was flown again, as a sentence in the place of the pictures; "" where it was.
     published : sequence of Published
         Printed tables to stand beside ours.
     iterations : Iterations or None
@@ -76,6 +78,7 @@ class ReportData:
     provenance: Mapping[str, str]
     designs: Sequence[Mapping[str, Any]]
     recordings: Sequence[Recording]
+    unflown: str = ""
     published: Sequence[Published] = ()
     iterations: Iterations | None = None
     limits_from: str = ""

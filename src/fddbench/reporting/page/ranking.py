@@ -41,8 +41,10 @@ class Rank:
         Flights by outcome.
     distinct_flights, alarms : int
         Healthy flights until their onsets, each once, and those with a false alarm.
+    runs : int
+        Runs that these come from: flights of one run are one witness.
     alarms_high_percent : float or None
-        Upper end of the 95 % interval of their share [%].
+        Upper end of the 95 % interval of their share, by run [%].
     weakest : Weakest or None
         None: nothing failed, or nothing was decided.
     in_sample, voted : bool
@@ -60,6 +62,7 @@ class Rank:
     alarms: int
     alarms_high_percent: float | None
     weakest: Weakest | None
+    runs: int = 0
     in_sample: bool = False
     voted: bool = False
 
@@ -88,7 +91,7 @@ def ranking(
                 outcomes={str(each): int(n) for each, n in counts.items()},
                 distinct_flights=int(line.get("distinct_flights", 0)), alarms=int(line.get("alarms", 0)),
                 alarms_high_percent=None if high is None or pd.isna(high) else float(high),
-                weakest=_weakest(columns, own), in_sample=name in in_sample, voted=name in voted,
+                weakest=_weakest(columns, own), runs=int(line.get("runs", 0)), in_sample=name in in_sample, voted=name in voted,
             )
         )  # fmt: skip
     return sorted(lines, key=_order)
