@@ -1,7 +1,7 @@
 """Summaries of flights of which only tallies are there: the same counts, rates and quantiles as those of all rows.
 
 What needs every row is left out or bounded on the safe side: a share or rate that pools points or levels counts as if all
-flights of an aircraft told the same, ``n_eff`` its runs (`fddbench.metrics.clustered`); estimates have no median.
+flights of an aircraft told the same, ``n_eff`` its runs less one (`fddbench.metrics.clustered`); estimates have no median.
 """
 
 from collections.abc import Collection, Iterator
@@ -113,12 +113,14 @@ def _runs(rows: pd.DataFrame) -> int:
 
 
 def _share(name: str, hits: int, trials: int, runs: int) -> Line:
-    """Share in percent, its interval that of as many trials as there are runs; see `fddbench.metrics.shares.share`."""
+    """Share in percent, its interval by run; see `fddbench.metrics.shares.share`."""
     if not trials:
         return percents(name, None, None, None)
     if runs < 2:
         return percents(name, hits / trials, None, None)
-    shrunk = runs * quantile_ratio(trials, runs, 0.95) ** 2
+    # as many as runs tell that agree in themselves: p (1 - p) / v is then runs - 1
+    effective = trials if trials <= runs else runs - 1
+    shrunk = effective * quantile_ratio(trials, runs, 0.95) ** 2
     low, high = beta_interval(min(hits / trials * shrunk, shrunk), shrunk)
     return percents(name, hits / trials, float(low), float(high))
 
@@ -159,7 +161,7 @@ def _design_effect(own: pd.DataFrame, alarmed: pd.DataFrame, flights: int, runs:
         rate = d / total
         spread = d - 2.0 * rate * int(alarmed["healthy_us"].sum()) + rate**2 * float(sum(own["healthy_us2"]))
         effect = max(1.0, flights / (flights - 1) * spread / d)
-    return effect * flights / runs
+    return effect if flights <= runs else effect * flights / (runs - 1)
 
 
 def _times(flown: pd.DataFrame) -> Line:

@@ -109,7 +109,9 @@ def read_rows(
     if columns is not None and known:
         require_columns(columns, known)
     kept = kept_of(folder) if fair else None
-    chosen = filter_of([*(filters or ()), *([("run", "<", kept.runs)] if kept else ())] or None, known)
+    if kept is not None:
+        filters = [*(filters or ()), ("run", "<", kept.runs)]
+    chosen = filter_of(filters, known)
     return _sorted(folder, "rows", columns, chosen)
 
 
