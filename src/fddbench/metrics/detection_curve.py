@@ -37,6 +37,8 @@ _SHARE = 0.9
 _ONE_SIDED_95, _BOUNDARY_5 = 2.7055, 2.7055
 """Chi-square of one degree of freedom at 0.90: a one-sided 95 %, and the 5 % of half a chi-square."""
 _TINY = 1e-12
+_MOST_SIZES = 500
+"""Sizes that are told apart; of more those in a band of 0.2 % of their span are one."""
 _STEEPEST = 1e-3
 """s stays above it [-]: a step between two sizes flown is as good as any steeper one."""
 
@@ -114,17 +116,27 @@ def detection_curve(size: npt.ArrayLike, found: npt.ArrayLike, run: Any) -> Dete
 
 
 class _Flights:
-    """Flights of one logarithm of size together: hits of trials."""
+    """Flights of one logarithm of size together: hits of trials; of very many sizes those of a narrow band, at their mean."""
 
     def __init__(self, x: Floats, y: Floats) -> None:
-        self.x, place = np.unique(x, return_inverse=True)
+        sizes, place = np.unique(x, return_inverse=True)
+        self.span = float(sizes[-1] - sizes[0])
+        if len(sizes) > _MOST_SIZES:
+            place = np.minimum(((x - sizes[0]) / self.span * _MOST_SIZES).astype(np.int64), _MOST_SIZES - 1)
+            place = np.unique(place, return_inverse=True)[1]
         self.n = np.bincount(place).astype(np.float64)
         self.k = np.bincount(place, weights=y)
-        self.span = float(self.x[-1] - self.x[0])
+        self.x = np.bincount(place, weights=x) / self.n
 
     def log_likelihood(self, share: Floats) -> float:
         p = np.clip(share, _TINY, 1.0 - _TINY)
         return float(np.sum(self.k * np.log(p) + (self.n - self.k) * np.log1p(-p)))
+
+    def slopes(self, share: Floats, by: list[Floats]) -> Floats:
+        """Gradient of the likelihood, of those of the share by each coordinate."""
+        p = np.clip(share, _TINY, 1.0 - _TINY)
+        steep = np.where(p == share, self.k / p - (self.n - self.k) / (1.0 - p), 0.0)
+        return np.array([float(np.sum(steep * each)) for each in by])
 
 
 @dataclass(frozen=True)
@@ -171,31 +183,70 @@ def _chosen(flights: _Flights) -> _Fit:
 def _fitted(flights: _Flights, *, floored: bool, capped: bool) -> _Fit:
     """Curve of greatest likelihood, from several beginnings."""
 
-    def unpack(z: Floats) -> tuple[float, float, float, float]:
-        rest = list(z[2:])
-        floor = float(0.9 * _logistic(rest.pop(0))) if floored else 0.0
-        ceiling = float(floor + (1.0 - floor) * _logistic(rest.pop(0))) if capped else 1.0
-        return float(z[0]), float(_STEEPEST + np.exp(z[1])), floor, ceiling
+    def cost(z: Floats) -> tuple[float, Floats]:
+        (m, s), (floor, cap, rest) = _middle(z), _ends(z[2:], floored, capped, 0.9)
+        wide = (1.0 - floor) * cap
+        u, bell, share = _bell(flights.x, m, s, floor, floor + wide)
+        by = [-wide * bell / s, -wide * bell * u / s * (s - _STEEPEST)]
+        if floored:
+            by.append((1.0 - cap * ndtr(u)) * rest[0])
+        if capped:
+            by.append((1.0 - floor) * ndtr(u) * rest[-1])
+        return -flights.log_likelihood(share), -flights.slopes(share, by)
 
-    found = _least(flights, unpack, extra=[-2.0] * floored + [2.0] * capped)
-    m, s, floor, ceiling = unpack(found.x)
-    return _Fit(flights, floored, capped, m, s, floor, ceiling, -float(found.fun))
-
-
-def _least(flights: _Flights, unpack: Callable[[Floats], tuple[float, ...]], *, extra: list[float]) -> Any:
-    """Best of several searches."""
-
-    def cost(z: Floats) -> float:
-        return -flights.log_likelihood(_share(flights.x, *unpack(z)))
-
-    low, high = flights.x[0] - 3.0 * flights.span, flights.x[-1] + 3.0 * flights.span
-    bounds = [(low, high), (np.log(1e-3), np.log(10.0 * flights.span)), *[(-9.0, 9.0)] * len(extra)]
-    begins = [
-        [float(np.quantile(flights.x, q)), np.log(width * flights.span), *extra]
-        for q in (0.2, 0.5, 0.8)
-        for width in (0.05, 0.3)
+    ends = [
+        [low] * floored + [high] * capped for low in ((-2.0, 0.0)[: 1 + floored]) for high in ((2.0, 0.0)[: 1 + capped])
     ]
-    found = [minimize(cost, begin, method="L-BFGS-B", bounds=bounds) for begin in begins]
+    found = _least(flights, cost, extra=ends)
+    (m, s), (floor, cap, _) = _middle(found.x), _ends(found.x[2:], floored, capped, 0.9)
+    return _Fit(flights, floored, capped, m, s, floor, floor + (1.0 - floor) * cap, -float(found.fun))
+
+
+Cost = Callable[[Floats], tuple[float, Floats]]
+"""Of coordinates of a search: what is to be least, and its gradient."""
+
+
+def _middle(z: Floats) -> tuple[float, float]:
+    """Place m and width s of the first two coordinates."""
+    return float(z[0]), float(_STEEPEST + np.exp(z[1]))
+
+
+def _ends(z: Floats, floored: bool, capped: bool, highest: float) -> tuple[float, float, list[float]]:
+    """Floor, below `highest`; how far the ceiling goes from there to its most; the slopes of those of both that are free."""
+    rest, slopes = [_logistic(each) for each in z], []
+    floor, cap = 0.0, 1.0
+    if floored:
+        floor = highest * rest[0]
+        slopes.append(floor * (1.0 - rest[0]))
+    if capped:
+        cap = rest[-1]
+        slopes.append(cap * (1.0 - cap))
+    return floor, cap, slopes
+
+
+def _bell(x: Floats, m: float, s: float, floor: float, ceiling: float) -> tuple[Floats, Floats, Floats]:
+    """Places u = (x - m) / s, the density of the bell there, and the curve."""
+    u = (x - m) / s
+    return u, np.exp(-0.5 * u * u) / np.sqrt(2.0 * np.pi), floor + (ceiling - floor) * ndtr(u)
+
+
+def _least(flights: _Flights, cost: Cost, *, extra: list[list[float]]) -> Any:
+    """Best of several searches."""
+    low, high = flights.x[0] - 3.0 * flights.span, flights.x[-1] + 3.0 * flights.span
+    bounds = [(low, high), (np.log(1e-3), np.log(10.0 * flights.span)), *[(-9.0, 9.0)] * len(extra[0])]
+    # at each of three places the best of some widths and ends
+    begins = [
+        min(
+            (
+                np.array([place, np.log(width * flights.span), *ends])
+                for width in (0.02, 0.05, 0.15, 0.4)
+                for ends in extra
+            ),
+            key=lambda begin: cost(begin)[0],
+        )
+        for place in np.quantile(flights.x, (0.2, 0.5, 0.8)).tolist()
+    ]
+    found = [minimize(cost, begin, jac=True, method="L-BFGS-B", bounds=bounds) for begin in begins]
     return min(found, key=lambda one: float(one.fun))
 
 
@@ -231,20 +282,24 @@ def _upper_end(fit: _Fit, effect: float) -> float | None:
 
 def _profile(fit: _Fit, x90: float) -> float:
     """Greatest likelihood of a curve of the same kind that is at 90 % there."""
+    flights = fit.flights
 
-    def unpack(z: Floats) -> tuple[float, float, float, float]:
-        rest = list(z[1:])
-        floor = float(0.89 * _logistic(rest.pop(0))) if fit.floored else 0.0
-        ceiling = float(_SHARE + (1.0 - _SHARE) * _logistic(rest.pop(0))) if fit.capped else 1.0
-        s = float(_STEEPEST + np.exp(z[0]))
-        return x90 - s * float(ndtri((_SHARE - floor) / (ceiling - floor))), s, floor, ceiling
-
-    def cost(z: Floats) -> float:
-        return -fit.flights.log_likelihood(_share(fit.flights.x, *unpack(z)))
+    def cost(z: Floats) -> tuple[float, Floats]:
+        s, (floor, cap, rest) = float(_STEEPEST + np.exp(z[0])), _ends(z[1:], fit.floored, fit.capped, 0.89)
+        ceiling = _SHARE + (1.0 - _SHARE) * cap
+        wide = ceiling - floor
+        q = float(ndtri((_SHARE - floor) / wide))
+        u, bell, share = _bell(flights.x, x90 - s * q, s, floor, ceiling)
+        # q moves the middle, and the ends move q
+        stretch = np.sqrt(2.0 * np.pi) * np.exp(0.5 * q * q) / wide**2
+        by = [-wide * bell * (u - q) / s * (s - _STEEPEST)]
+        if fit.floored:
+            by.append((1.0 - ndtr(u) + wide * bell * stretch * (_SHARE - ceiling)) * rest[0])
+        if fit.capped:
+            by.append((ndtr(u) - wide * bell * stretch * (_SHARE - floor)) * (1.0 - _SHARE) * rest[-1])
+        return -flights.log_likelihood(share), -flights.slopes(share, by)
 
     extra = [-2.0] * fit.floored + [1.0] * fit.capped
-    bounds = [(np.log(1e-3), np.log(10.0 * fit.flights.span)), *[(-9.0, 9.0)] * len(extra)]
-    begins = [[np.log(width * fit.flights.span), *extra] for width in (0.05, 0.3)] + [
-        [np.log(max(fit.s, 2e-3)), *extra]
-    ]
-    return max(-float(minimize(cost, begin, method="L-BFGS-B", bounds=bounds).fun) for begin in begins)
+    bounds = [(np.log(1e-3), np.log(10.0 * flights.span)), *[(-9.0, 9.0)] * len(extra)]
+    begins = [[np.log(width * flights.span), *extra] for width in (0.05, 0.3)] + [[np.log(max(fit.s, 2e-3)), *extra]]
+    return max(-float(minimize(cost, each, jac=True, method="L-BFGS-B", bounds=bounds).fun) for each in begins)
