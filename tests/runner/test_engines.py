@@ -179,7 +179,7 @@ def test_a_task_that_kills_its_worker_again_and_again_ends_the_run_under_dask(ca
     pytest.importorskip("distributed")
     monkeypatch.setattr("fddbench.runner.pool.fly_anywhere", lambda own, cases: os._exit(1))
     monkeypatch.setattr("fddbench.runner.pool._ATTEMPTS", 1)
-    with pytest.raises(FddbenchError, match="workers died 1 times"):
+    with pytest.raises(FddbenchError, match="workers died 1 times in a row"):
         fddbench.run(campaign, tmp_path / "out", engine="dask", jobs=1)
 
 

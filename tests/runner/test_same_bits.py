@@ -43,6 +43,7 @@ def reference(everything, tmp_path_factory):
         {"jobs": 1, "chunk": 1},
         {"jobs": 2, "chunk": 7},
         {"jobs": 1, "chunk": 64},
+        {"jobs": 2, "chunk": 1000},
         {"jobs": 1, "backend": "numpy"},
         {"jobs": 2, "backend": "numpy", "chunk": 9},
     ],

@@ -15,6 +15,7 @@ from fddbench.reporting.page.columns import NEEDS, Columns
 from fddbench.reporting.page.comparison import ComparedFolder, Comparison
 from fddbench.reporting.page.ranking import ranking, second_beside_best
 from fddbench.reporting.page.ranks import rank_lines
+from fddbench.results.kept import kept_of
 from fddbench.results.table import read_rows
 from fddbench.results.whole import holdings
 from fddbench.runner.fingerprint import frozen
@@ -42,11 +43,12 @@ def comparison_data(folders: Sequence[Path]) -> Comparison:
 
 def _folder(path: Path) -> ComparedFolder:
     campaign, own, voted = _campaign(path)
-    found, rows = holdings(path), read_rows(path, list(NEEDS))
+    found, kept, rows = holdings(path), kept_of(path), read_rows(path, list(NEEDS), fair=True)
     columns = Columns(rows)
+    short = "; ".join(filter(None, [found.sentence if found.partial else "", f"only {kept.first}" if kept else ""]))
     ranks = ranking(columns, summarize_alarms(rows, in_sample=own), in_sample=own, voted=voted)
     return ComparedFolder(
-        folder=path.as_posix(), campaign=campaign.name, about=campaign.about, partial=found.sentence if found.partial else "",
+        folder=path.as_posix(), campaign=campaign.name, about=campaign.about, partial=short,
         answer=answer(ranks, second_beside_best(columns, ranks)), ranks=rank_lines(ranks),
     )  # fmt: skip
 

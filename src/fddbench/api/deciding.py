@@ -127,6 +127,11 @@ def _most(campaign: Campaign, at_most: int | None) -> int:
         raise FddbenchError(f"nothing to decide: {campaign.path} has no requirements; write them into it")
     if drawn is None:
         raise FddbenchError(f"{campaign.path} draws nothing (it has no monte_carlo), so it has no runs to add")
+    if campaign.keep != "all":
+        raise FddbenchError(
+            f"{campaign.path} keeps a part of its rows (keep: {campaign.keep}), and verdicts are by rows, those of the first "
+            f"{campaign.kept_runs} runs, so that more runs decide nothing. Fly it with --set keep=all"
+        )
     if at_most is not None and at_most < drawn.runs:
         raise FddbenchError(
             f"at most {at_most} runs, but the campaign itself has {drawn.runs}; allow more, or --set {_RUNS}="

@@ -55,7 +55,7 @@ def pod(folder: str | Path, size: str = "") -> pd.DataFrame:
     FddbenchError
         No folder of results, no such column, or no fault with a size that differs.
     """
-    rows = load(folder)
+    rows = load(folder, fair=True)
     sizes = [name for name in rows.columns if name[:1] == "f" and name[1:2].isdigit()]
     if size and size not in rows.columns:
         hint = did_you_mean(size, sizes)

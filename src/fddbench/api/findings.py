@@ -7,8 +7,10 @@ import pandas as pd
 from fddbench.api.tables import alarms, load
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.rules.model import CampaignFile
+from fddbench.errors import ResultsError
 from fddbench.reporting.finding import finding_text
 from fddbench.results.folder import provenance_of
+from fddbench.results.kept import kept_of
 from fddbench.results.whole import require_whole
 from fddbench.runner.fingerprint import frozen
 
@@ -32,6 +34,10 @@ def finding(folder: str | Path) -> str:
     """
     path = Path(folder)
     require_whole(path)
+    if kept_of(path) is not None:
+        raise ResultsError(
+            f"{path} keeps a part of its rows, and a finding is written of all; fly it with --set keep=all into another folder"
+        )
     campaign, rows = frozen(path), load(path)
     swept = swept_columns(rows, campaign)
     provenance = provenance_of(path)

@@ -15,6 +15,7 @@ from fddbench.api.detectability import detectable_of
 from fddbench.api.findings import swept_columns
 from fddbench.api.requiring import judgements
 from fddbench.api.rows_alone import rows_alone
+from fddbench.api.tables import overview
 from fddbench.campaign.meaning import Campaign
 from fddbench.errors import ResultsWarning, UntrustedError, warn
 from fddbench.reporting.bands import names_in
@@ -25,6 +26,7 @@ from fddbench.reporting.page.traces import MOST_SCENARIOS
 from fddbench.reporting.published import iterations_for, published_for
 from fddbench.reporting.reasons import reason_table
 from fddbench.results.folder import provenance_of
+from fddbench.results.kept import kept_of
 from fddbench.results.schema import rows_schema
 from fddbench.results.table import column_names, read_events, read_rows
 from fddbench.results.whole import holdings
@@ -76,7 +78,7 @@ def report_data(folder: Path, *, replay: bool = True) -> ReportData:
     try:
         campaign = frozen(folder)
     except UntrustedError as error:
-        rows, events = read_rows(folder, _columns(folder)), read_events(folder, _OF_EVENTS)
+        rows, events = read_rows(folder, _columns(folder), fair=True), read_events(folder, _OF_EVENTS, fair=True)
         page = rows_alone(folder, rows, events, provenance=_flat(provenance), why=f"{_WITHOUT_CODE}: {error}.")
         warn(f"{error}. Its page is written from the rows alone", ResultsWarning)
         return page
@@ -88,15 +90,15 @@ _WITHOUT_CODE = "Not drawn, and neither requirements, operating curves, maps nor
 
 def _with_code(folder: Path, campaign: Campaign, provenance: Mapping[str, Any], *, replay: bool) -> ReportData:
     """Page of a folder whose campaign can be built and flown."""
-    found = holdings(folder)
+    found, kept = holdings(folder), kept_of(folder)
     content: dict[str, Any] = {name: getattr(campaign, name) for name in _SETTINGS} | dict(campaign.choices)
     content |= yaml.safe_load(campaign.text)
     assembly, bench = assemble(campaign), campaign.bench
-    rows = read_rows(folder, _columns(folder))
+    rows = read_rows(folder, _columns(folder), fair=True)
     return ReportData(
         campaign=content,
         rows=rows,
-        events=read_events(folder, _OF_EVENTS),
+        events=read_events(folder, _OF_EVENTS, fair=True),
         provenance=_flat(provenance) | _replayed(folder, campaign),
         designs=_designs(campaign, assembly),
         **(_flown_again(campaign, rows, content) if replay else {"recordings": [], "unflown": _NO_REPLAY}),
@@ -109,6 +111,8 @@ def _with_code(folder: Path, campaign: Campaign, provenance: Mapping[str, Any], 
         in_sample=campaign.in_sample,
         limits_from=bench.limits_from,
         partial=found.sentence if found.partial else "",
+        kept=kept.first if kept else "",
+        counted=overview(folder)[0] if kept else None,
         detectable=detectable_of(rows, campaign),
         consequences=assembly.consequences.announced,
         swept=swept_columns(rows, campaign),

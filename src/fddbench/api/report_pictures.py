@@ -166,7 +166,7 @@ def envelope(folder: str | Path, detector: str, x: str = "", y: str = "") -> Pic
     FddbenchError
         No folder of results, no such detector or column, or nothing to map over.
     """
-    rows = load(folder)
+    rows = load(folder, fair=True)
     columns = Columns(rows)
     d = _place(columns.detectors, detector, "detector")
     if not (x and y):
@@ -184,7 +184,7 @@ def envelope(folder: str | Path, detector: str, x: str = "", y: str = "") -> Pic
 
 
 def _cells(folder: str | Path) -> tuple[Columns, dict[tuple[int, int], Cell]]:
-    rows = load(folder)
+    rows = load(folder, fair=True)
     columns, own = Columns(rows), in_sample(folder)
     ranks = ranking(columns, summarize_alarms(rows, in_sample=own), in_sample=own)
     best = ranks[0].number if ranks and ranks[0].decided else None

@@ -14,10 +14,12 @@ from fddbench.api.as_written import (
     voted_as_written,
 )
 from fddbench.api.findings import swept_columns
+from fddbench.api.tables import overview
 from fddbench.campaign.rules.model import CampaignFile
 from fddbench.reporting.page.data import ReportData
 from fddbench.reporting.published import iterations_for, published_for
 from fddbench.results.folder import provenance_of
+from fddbench.results.kept import kept_of
 from fddbench.results.whole import holdings
 
 __all__ = ["rows_alone"]
@@ -48,6 +50,7 @@ def rows_alone(
         No folder of results, a damaged one, or frozen files that are no campaign and no designs.
     """
     written, bench, found = campaign_as_written(folder), benchmark_as_written(folder), holdings(folder)
+    kept = kept_of(folder)
     content = {name: getattr(written, name) for name in _SETTINGS} | written.model_dump(mode="json", exclude_unset=True)
     return ReportData(
         campaign=content, rows=rows, events=events, provenance=provenance, designs=_designs(folder),
@@ -59,6 +62,7 @@ def rows_alone(
         limits_from=bench.limits_from if bench is not None else "",
         partial=found.sentence if found.partial else "",
         swept=swept_columns(rows, written),
+        kept=kept.first if kept else "", counted=overview(folder)[0] if kept else None,
     )  # fmt: skip
 
 

@@ -1,6 +1,6 @@
 """What a run does with a folder that it goes on with: what is damaged is no longer listed, so that it is flown again."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -50,12 +50,8 @@ def mend(folder: Path, *, provenance: Mapping[str, Any]) -> tuple[tuple[Shard, .
 
 def _wrong(folder: Path, shard: Shard, numbering: Numbering) -> str:
     """What is wrong with a shard, "" for nothing."""
-    files: Sequence[tuple[str | None, str | None]] = (
-        (shard.rows, shard.rows_sha256),
-        (shard.events, shard.events_sha256),
-    )
-    for name, sha256 in files:
-        if name is not None and file_sha256(folder / name) != sha256:
+    for name, sha256 in shard.files:
+        if file_sha256(folder / name) != sha256:
             return f"{name} is damaged or gone"
     try:
         numbering.numbers(shard)

@@ -9,14 +9,16 @@ from pathlib import Path, PurePosixPath
 from fddbench.errors import ResultsError
 from fddbench.results.manifest import SHARD_FILE, survey
 
-__all__ = ["RESERVED", "clear", "refuse_foreign", "sweep"]
+__all__ = ["RESERVED", "TABLES", "clear", "refuse_foreign", "sweep"]
 
 _JUDGED = "requirements.junit.xml"
 _FIXED = (
     *("campaign.yaml", "manifest.jsonl", "report.html", "summary.parquet", _JUDGED),
     *("provenance.json", ".lock", ".pid", ".token"),
 )
-RESERVED = frozenset({*_FIXED, "rows", "events"})
+TABLES = ("rows", "events", "tallies")
+"""Folders of a folder of results that hold its shards."""
+RESERVED = frozenset({*_FIXED, *TABLES})
 """Names in a folder of results that no file beside a campaign can have when it travels there."""
 _LEFT = re.compile(r"(.*/)?(\.[^/]+\.[0-9]+\.tmp|__pycache__/[^/]+\.pyc)")
 """What a crash in the middle of a write leaves behind, and what Python leaves beside the plug-ins."""
@@ -87,8 +89,7 @@ def clear(folder: Path, carried: Collection[str]) -> None:
     frozen = [name for name in carried if _may_be_frozen(name)]
     for name in (
         "manifest.jsonl",
-        "rows",
-        "events",
+        *TABLES,
         "detectors",
         *frozen,
         "campaign.yaml",
@@ -106,7 +107,7 @@ def clear(folder: Path, carried: Collection[str]) -> None:
 
 def sweep(folder: Path) -> None:
     """Remove the files that a killed run was writing aside; who holds the lock of a folder is its only writer."""
-    for below in (folder, folder / "rows", folder / "events", folder / "detectors"):
+    for below in (folder, *(folder / name for name in (*TABLES, "detectors"))):
         if below.is_dir() and not below.is_symlink():
             for path in below.iterdir():
                 if _ASIDE.fullmatch(path.name):

@@ -16,12 +16,22 @@ from fddbench.plugin_files import none_run
 from fddbench.results import trust
 from fddbench.results.fingerprint import Fingerprint, differences
 from fddbench.results.folder import changed_files, provenance_of
+from fddbench.results.kept import Kept
 from fddbench.results.provenance import collect, version_of
 from fddbench.results.schema import SCHEMA_VERSION
 from fddbench.results.shards import file_sha256
 from fddbench.results.stages import stages_in
 
-__all__ = ["fingerprint_of", "frozen", "frozen_before", "frozen_to_fly", "other_program", "provenance_for", "trusted"]
+__all__ = [
+    "fingerprint_of",
+    "frozen",
+    "frozen_before",
+    "frozen_to_fly",
+    "kept_by",
+    "other_program",
+    "provenance_for",
+    "trusted",
+]
 
 _REMEDY = "Run the campaign again on this folder: it puts the files back."
 
@@ -58,14 +68,24 @@ def provenance_for(plan: Plan, fingerprint: Fingerprint) -> dict[str, object]:
     campaign = plan.campaign
     notes: Any = getattr(plan.plant, "notes", None)
     logs = {} if notes is None else {"logs": notes(campaign.sample_s)}
-    return logs | collect(
-        fingerprint,
-        campaign=campaign.name,
-        designs_sha256={design.name: design.sha256 for design in campaign.designs},
-        seed=campaign.seed,
-        flights={planned.name: planned.n_cases for planned in plan.scenarios},
-        text=campaign.text.encode(),
+    kept = kept_by(campaign)
+    return (
+        logs
+        | (kept.plain() if kept else {})
+        | collect(
+            fingerprint,
+            campaign=campaign.name,
+            designs_sha256={design.name: design.sha256 for design in campaign.designs},
+            seed=campaign.seed,
+            flights={planned.name: planned.n_cases for planned in plan.scenarios},
+            text=campaign.text.encode(),
+        )
     )
+
+
+def kept_by(campaign: Campaign) -> Kept | None:
+    """Which rows a campaign keeps; None: all."""
+    return None if campaign.keep == "all" else Kept(runs=campaign.kept_runs, failures=campaign.keep == "failures")
 
 
 def frozen(folder: Path) -> Campaign:

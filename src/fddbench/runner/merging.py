@@ -1,6 +1,6 @@
 """Several folders of results of campaigns that agree become one; rows that two of them hold must be the same bits."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from zlib import crc32
@@ -17,6 +17,7 @@ from fddbench.campaign.plan import Plan
 from fddbench.campaign.plan import plan as planned
 from fddbench.errors import ResultsError
 from fddbench.results import manifest
+from fddbench.results.compacting import ENOUGH, compact, require_sound
 from fddbench.results.fingerprint import Fingerprint, differences
 from fddbench.results.folder import claim, provenance_of, refuse_foreign
 from fddbench.results.lock import locked
@@ -26,6 +27,7 @@ from fddbench.results.table import as_of_today, read_events, read_rows
 from fddbench.runner.assembling import assemble
 from fddbench.runner.fingerprint import fingerprint_of, provenance_for
 from fddbench.runner.growing import as_far_as
+from fddbench.runner.joining import joinable, joined
 from fddbench.runner.rows import schemas_of
 from fddbench.runner.writing import write_shard
 
@@ -59,12 +61,28 @@ def merge_into(folder: Path, parts: Mapping[Path, Campaign], whole: Campaign) ->
     refuse_foreign(folder)
     if (folder / "provenance.json").exists():
         raise ResultsError(f"{folder} holds results already; name another folder with --output")
+    if joinable(list(parts), here.sha256):
+        for path in parts:
+            require_sound(path, manifest.shards(path))
+        _write(folder, whole, now, here, joined(folder, list(parts)))
+        return
+    if whole.keep != "all":
+        raise ResultsError(
+            "these campaigns do not keep all their rows: only parts of one campaign, flown by one program and none twice, can "
+            "be put together. Fly the whole into one folder, or with --set keep=all"
+        )
     tables = [_read(path, planned(own), now) for path, own in parts.items()]
     rows, events = (_together([getattr(each, kind) for each in tables], kind) for kind in ("rows", "events"))
+    _write(folder, whole, now, here, _shards(folder, now, here.sha256, rows, events))
+
+
+def _write(folder: Path, whole: Campaign, plan: Plan, here: Fingerprint, shards: Iterable[Shard]) -> None:
+    """Make a folder of results of these shards, which are written as they are asked for."""
     with locked(folder):
-        claim(folder, files=whole.files(), provenance=provenance_for(now, here), fresh=False)
-        for shard in _shards(folder, now, here.sha256, rows, events):
+        claim(folder, files=whole.files(), provenance=provenance_for(plan, here), fresh=False)
+        for shard in shards:
             manifest.append(folder, shard)
+        compact(folder, least=ENOUGH)
 
 
 def _in_the_way(path: Path, was: Plan, now: Plan, here: Fingerprint) -> list[str]:

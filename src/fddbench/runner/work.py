@@ -13,7 +13,7 @@ import numpy.typing as npt
 from fddbench.results.manifest import Shard
 from fddbench.runner.assembling import assemble, with_detectors
 from fddbench.runner.chunks import Spans, expand
-from fddbench.runner.fingerprint import frozen_to_fly
+from fddbench.runner.fingerprint import frozen_to_fly, kept_by
 from fddbench.runner.flight import Flyer
 from fddbench.runner.given_up import GivenUps
 from fddbench.runner.rows import rows_and_events
@@ -85,7 +85,8 @@ def _flyer(work: Work) -> Flyer:
 def fly_and_write(work: Work, case_spans: Spans) -> Shard:
     """Fly the cases and write their shard into the folder of results."""
     cases, in_thread = expand(case_spans), work in _lent
-    rows, events = rows_and_events(flyer_of(work), cases, work.detectors)
+    flyer = flyer_of(work)
+    rows, events = rows_and_events(flyer, cases, work.detectors)
     with _writing:
         if in_thread and work not in _lent:
             raise InterruptedError("the run that gave out this work has ended")
@@ -95,6 +96,7 @@ def fly_and_write(work: Work, case_spans: Spans) -> Shard:
             rows,
             events,
             fingerprint=work.fingerprint,
+            kept=kept_by(flyer.assembly.plan.campaign),
             detectors=work.detectors,
             label=work.label,
         )

@@ -1,4 +1,4 @@
-"""Writes the rows and events of some flights as one shard."""
+"""Writes the rows and events of some flights as one shard; where not all are kept, what is counted of all of them."""
 
 from pathlib import Path
 
@@ -6,8 +6,10 @@ import numpy as np
 import numpy.typing as npt
 import pyarrow as pa
 
+from fddbench.results.kept import Kept
 from fddbench.results.manifest import Shard
 from fddbench.results.shards import write_table
+from fddbench.results.tallies import tally
 from fddbench.runner.chunks import spans
 
 __all__ = ["write_shard"]
@@ -20,6 +22,7 @@ def write_shard(
     events: pa.Table,
     *,
     fingerprint: str,
+    kept: Kept | None = None,
     detectors: tuple[str, ...] = (),
     label: str = "",
 ) -> Shard:
@@ -33,14 +36,19 @@ def write_shard(
         Of these flights; there may be no events.
     fingerprint : str
         What flew it.
+    kept : Kept, optional
+        Which rows are kept; all by default.
     detectors : tuple of str
         Those that it has rows of; empty: all of its campaign.
     label : str
         Digits that keep its name apart from that of another shard of the same flights.
     """
     name = "-".join(filter(None, [f"{cases[0]:08d}-{cases[-1]:08d}-{len(cases)}", label])) + ".parquet"
+    counts, tallies_sha256 = rows["status"].value_counts().to_pylist(), None
+    if kept is not None:
+        tallies_sha256 = write_table(folder / "tallies" / name, tally(rows), fingerprint=fingerprint)
+        rows, events = kept.thinned(rows, events)
     events_sha256 = write_table(folder / "events" / name, events, fingerprint=fingerprint) if len(events) else None
-    counts = rows["status"].value_counts().to_pylist()
     return Shard(
         cases=spans(cases),
         rows=f"rows/{name}",
@@ -50,4 +58,6 @@ def write_shard(
         statuses=dict(sorted((entry["values"], entry["counts"]) for entry in counts)),
         fingerprint=fingerprint,
         detectors=detectors,
+        tallies=f"tallies/{name}" if tallies_sha256 else None,
+        tallies_sha256=tallies_sha256,
     )

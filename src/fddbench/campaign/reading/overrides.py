@@ -9,8 +9,8 @@ from fddbench.errors import CampaignError, FddbenchError, Mistake, did_you_mean
 
 __all__ = ["ALONE", "with_overrides"]
 
-ALONE = ("requirements=[]",)
-"""Beside an override of the detectors: what a campaign requires of its own detectors is asked of no other."""
+ALONE = ("requirements=[]", "keep=all")
+"""Beside an override of the detectors: requirements are of the campaign's own, and all rows are read."""
 
 
 def with_overrides(document: Document, overrides: Sequence[str]) -> Document:

@@ -4,7 +4,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from fnmatch import fnmatchcase
 
 from fddbench.campaign.reading.document import Address, Document
-from fddbench.campaign.rules.model import CampaignFile, Dispersions, RequirementEntry
+from fddbench.campaign.rules.dispersions import Dispersions
+from fddbench.campaign.rules.model import CampaignFile, RequirementEntry
 from fddbench.errors import Mistake, did_you_mean
 from fddbench.metrics.requirements import AT_LEAST, OF_FAULTS
 

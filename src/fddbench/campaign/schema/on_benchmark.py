@@ -6,19 +6,9 @@ from typing import Any
 from fddbench import kinds
 from fddbench.campaign.in_words import options_in_words
 from fddbench.campaign.rules.consistency import MOST_CASES
+from fddbench.campaign.rules.dispersions import Dispersions, Distribution, MonteCarlo, Normal, TruncatedNormal
 from fddbench.campaign.rules.keys import NAME_PATTERN
-from fddbench.campaign.rules.model import (
-    CampaignFile,
-    Dispersions,
-    Distribution,
-    MonteCarlo,
-    Normal,
-    ReportEntry,
-    RequirementEntry,
-    ScenarioEntry,
-    TruncatedNormal,
-    campaign_file,
-)
+from fddbench.campaign.rules.model import CampaignFile, ReportEntry, RequirementEntry, ScenarioEntry, campaign_file
 from fddbench.campaign.rules.references import default_of
 from fddbench.campaign.rules.swept import Sweep, SweptDesign
 from fddbench.campaign.schema.described import described, titled

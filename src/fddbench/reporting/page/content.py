@@ -20,6 +20,7 @@ from fddbench.reporting.page.asked import asked
 from fddbench.reporting.page.cells import Cell, cells
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.page.convergence import convergence_scene
+from fddbench.reporting.page.counted import COUNTED_HEADS, counted_lines
 from fddbench.reporting.page.courses import courses, loudest
 from fddbench.reporting.page.data import ReportData
 from fddbench.reporting.page.envelope import envelope_maps, envelope_pairs, infeasible_map
@@ -94,6 +95,9 @@ def _head(report: ReportData, ranks: Sequence[Rank], columns: Columns) -> dict[s
         "campaign": report.campaign,
         "settings": {n: report.campaign[n] for n in names if report.campaign.get(n) not in (None, "")},
         "partial": report.partial,
+        "kept": report.kept,
+        "counted": counted_lines(report.counted),
+        "counted_heads": COUNTED_HEADS,
         "flown": headlines.flown_sentence(report.rows),
         "answer": asked(
             str(report.campaign.get("about") or ""),

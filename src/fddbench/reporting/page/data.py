@@ -46,6 +46,10 @@ class ReportData:
         Detectors that were tuned on these flights.
     partial : str
         How many flights of how many the folder holds, "" when all.
+    kept : str
+        Which rows these are where the campaign does not keep all, "" where it does.
+    counted : DataFrame or None
+        Then what is counted of all, lines of `fddbench.metrics.summary.SUMMARY`.
     detectable : DataFrame or None
         Maps of detectability, lines of `fddbench.metrics.detectable.DETECTABLE`.
     consequences : sequence of Consequence
@@ -82,6 +86,8 @@ class ReportData:
     envelope_axes: Sequence[tuple[str, str]] = ()
     in_sample: Sequence[str] = ()
     partial: str = ""
+    kept: str = ""
+    counted: pd.DataFrame | None = None
     detectable: pd.DataFrame | None = None
     bounds: pd.DataFrame | None = None
     consequences: Sequence[Consequence] = ()
