@@ -6,8 +6,8 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from fddbench.api.campaigns import read
 from fddbench.campaign.check import describe, duration, estimated_seconds
-from fddbench.campaign.load import read_campaign
 from fddbench.designs.adapted import Adapted
 from fddbench.runner.assembling import assemble
 from fddbench.runner.chunks import CHUNK, COMPILED_CHUNK, OPAQUE_CHUNK
@@ -31,7 +31,7 @@ def described(path: str | Path, overrides: Sequence[str] = ()) -> str:
     CampaignError
         Every mistake in the campaign and its designs.
     """
-    assembly = assemble(read_campaign(Path(path), overrides))
+    assembly = assemble(read(path, overrides))
     plan, compiled = assembly.plan, Flyer(assembly).compiled
     each_s, together_s = (_COMPILED_S, 0.0) if compiled else (_NUMPY_S, _NUMPY_CALL_S)
     opaque = {name: own for name, own in assembly.detectors.items() if own.opaque}

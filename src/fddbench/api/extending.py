@@ -9,14 +9,15 @@ import yaml
 
 from fddbench.api.aside import aside, campaign_in
 from fddbench.api.tables import leave_summary
-from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
 from fddbench.designs.design import Design, read_design
 from fddbench.designs.finding import find_design
 from fddbench.errors import FddbenchError, did_you_mean
+from fddbench.runner.engines import Engine
 from fddbench.runner.fingerprint import frozen, frozen_before
 from fddbench.runner.growing import grow_to
 from fddbench.runner.run import Progress, RunReport, run_campaign
+from fddbench.runner.supervised.trial import read_safely
 
 __all__ = ["extend"]
 
@@ -30,6 +31,8 @@ def extend(
     scenarios: Sequence[str] = (),
     jobs: int = 2,
     backend: str = "auto",
+    engine: str = "auto",
+    address: str | None = None,
     progress: Callable[[Progress], None] | None = None,
     notice: Callable[[str], None] | None = None,
     summarised: Callable[[pd.DataFrame, pd.DataFrame], None] | None = None,
@@ -51,7 +54,7 @@ def extend(
         More detectors: names of designs in ``detectors/`` here or shipped, or paths of design files.
     scenarios : sequence of str
         Only these scenarios of `campaign`, beside those that were flown.
-    jobs, backend, progress, notice, summarised
+    jobs, backend, engine, address, progress, notice, summarised
         See `fddbench.run`.
 
     Raises
@@ -64,10 +67,11 @@ def extend(
         raise FddbenchError("scenarios are those of a campaign: name its file too")
     if campaign is None and runs is None and not detectors:
         raise FddbenchError("nothing to extend by: give runs, detectors, or a campaign that says more")
+    by = Engine(name=engine, jobs=jobs, address=address)
     old = frozen_before(path)
     with aside("the larger campaign") as written:
         grow_to(path, old, _larger(old, campaign, runs, detectors, scenarios, written))
-    report = run_campaign(frozen(path), path, jobs=jobs, backend=backend, progress=progress, notice=notice)
+    report = run_campaign(frozen(path), path, engine=by, backend=backend, progress=progress, notice=notice)
     if not report.interrupted:
         tables = leave_summary(path)
         if summarised is not None:
@@ -84,7 +88,7 @@ def _larger(
     written: Path,
 ) -> Campaign:
     """The campaign that the folder is to hold, written with everything it stands on into a folder of its own."""
-    given = None if campaign is None else read_campaign(Path(campaign))
+    given = None if campaign is None else read_safely(Path(campaign))
     base = old if given is None or scenarios else given
     content: dict[str, Any] = yaml.safe_load(base.text)
     files = base.files()
