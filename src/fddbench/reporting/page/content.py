@@ -144,6 +144,7 @@ def _pictures(report: ReportData, columns: Columns, ranks: Sequence[Rank], alarm
         "bands": band_sections(report.bands, report.responses, report.shown),
         "signals": signal_sections(report.recordings, report.rows, [line.detector for line in ranks], promises),
         "promised": bool(promises),
+        "unpromised": [str(d["name"]) for d in report.designs if d.get("lost_reference")],
         "unflown": report.unflown,
     }
 
