@@ -102,7 +102,8 @@ def _verdict(decided: Sequence[Rank], second: PairedShares | None) -> Said:
     right = [line.right.hits == line.decided for line in decided]
     who = "Both detectors" if len(decided) == 2 else f"All {len(decided)} detectors"
     if len(decided) > 1 and all(right):
-        return [(f"{who} are right in time", True), (f" in all {n}{_bound(best)}. ", False)]
+        flights = "the one decided faulty flight" if best.decided == 1 else f"all {n}"
+        return [(f"{who} are right in time", True), (f" in {flights}{_bound(best)}. ", False)]
     if all(line.right.hits == 0 for line in decided):
         return [(f"{'The detector is' if len(decided) == 1 else who + ' are'} never right", True),
                 (f" in time in {n}. ", False)]  # fmt: skip
