@@ -38,7 +38,9 @@ def test_the_most_wrong_estimate_where_it_is_asked_for(told):
     bias[(columns.whole("point", range(len(columns))) == 2) & (columns.detector == 1)] = -0.4
     columns._known["estimate_bias"] = bias
     said = text(of_points("What do errors do to each estimate?", columns, NAMES))
-    assert said.startswith("Estimates are most wrong with delta c y [%] 5: bias -0.4 of other in jam_a, beside 0.01")
+    assert said.startswith(
+        "Estimates are most wrong in jam_a with delta c y [%] 5: bias -0.4 of other, 0.01 where none"
+    )
 
 
 def test_what_looks_like_a_fault_is_said():

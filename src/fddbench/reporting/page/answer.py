@@ -61,6 +61,7 @@ def answer(
     *,
     courses: Sequence[Course] = (),
     loudest: Loudest | None = None,
+    along_first: bool = False,
 ) -> Said:
     """Pieces of the sentence.
 
@@ -74,6 +75,8 @@ def answer(
         What the campaign varies.
     loudest : Loudest or None
         Healthy scenario with most false alarms.
+    along_first : bool
+        Whether what the campaign varies is what it asks for.
     """
     if not ranks:
         return [("Not decided: no flight was flown.", False)]
@@ -88,9 +91,8 @@ def answer(
         ]
     decided = [line for line in ranks if line.decided]
     best = decided[0]
-    said = _verdict(decided, second)
-    for course in courses:
-        said += _along(course)
+    said, along = _verdict(decided, second), [piece for course in courses for piece in _along(course)]
+    said = along + said if along_first else said + along
     if len(decided) == 1 or any(line.right.hits < line.decided for line in decided):
         said += _weakness(best, "It" if len(decided) == 1 else best.detector)
     said += _false_alarms(best, loudest)

@@ -1,5 +1,6 @@
 """What stands in each section of the page."""
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -120,7 +121,8 @@ def _answer(report: ReportData, ranks: Sequence[Rank], columns: Columns, compare
     first += of_points(about, columns, [f"p_{name}" for name in varied if f"p_{name}" in report.rows])
     first += of_print(about, compared, ranks[0].detector if ranks else "")
     second = second_beside_best(columns, ranks)
-    return first + answer(ranks, second, courses=courses(columns, report.swept), loudest=loud)
+    what = report.operating is None and re.match(r"What (do|does|is left)\b|How\b|At which\b", about) is not None
+    return first + answer(ranks, second, courses=courses(columns, report.swept), loudest=loud, along_first=what)
 
 
 _MOST_MAPS = 6

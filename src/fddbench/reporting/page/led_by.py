@@ -15,7 +15,7 @@ from fddbench.reporting.page.columns import Columns
 
 __all__ = ["of_points", "of_print", "of_quiet"]
 
-_MOST_NAMED = 2
+_MOST_NAMED, _MOST_SCENARIOS, _PIECES = 2, 2, 5
 
 
 def of_quiet(about: str, loudest: Loudest | None) -> Said:
@@ -72,16 +72,20 @@ def of_points(about: str, columns: Columns, sequence: Sequence[str]) -> Said:
 
 
 def _estimate(columns: Columns, point: "np.ndarray[Any, Any]", names: Mapping[str, Floats]) -> Said:
+    """Of each scenario by itself: sites differ in their units."""
     bias = np.where(columns.ok & columns.faulty, columns.numbers("estimate_bias"), np.nan)
-    if np.isnan(bias).all():
-        return []
-    at = int(np.nanargmax(np.abs(bias)))
-    same = (columns.detector == columns.detector[at]) & (columns.scenario == columns.scenario[at])
-    none = np.abs(bias[same & (point == point.min())])
-    beside = f", beside {short(float(np.nanmedian(none)))} where none is off" if not np.isnan(none).all() else ""
-    return [("Estimates are most wrong with ", False), (_differing(point, names, int(point[at])), True),
-            (f": bias {short(float(bias[at]))} of {columns.detectors[columns.detector[at]]} in ", False),
-            (columns.scenarios[columns.scenario[at]], True), (f"{beside}. ", False)]  # fmt: skip
+    said: Said = []
+    for s, scenario in enumerate(columns.scenarios):
+        own = np.where(columns.scenario == s, bias, np.nan)
+        if len(said) >= _MOST_SCENARIOS * _PIECES or np.isnan(own).all():
+            continue
+        at = int(np.nanargmax(np.abs(own)))
+        none = np.abs(own[(columns.detector == columns.detector[at]) & (point == point.min())])
+        beside = f", {short(float(np.nanmedian(none)))} where none is off" if not np.isnan(none).all() else ""
+        worst = f": bias {short(float(bias[at]))} of {columns.detectors[columns.detector[at]]}{beside}"
+        said += [("; " if said else "Estimates are most wrong in ", False), (scenario, True), (" with ", False),
+                 (_differing(point, names, int(point[at])), True), (worst, False)]  # fmt: skip
+    return [*said, (" (in the unit of each site). ", False)] if said else []
 
 
 def _right(columns: Columns, point: "np.ndarray[Any, Any]", names: Mapping[str, Floats]) -> Said:
