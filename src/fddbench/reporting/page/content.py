@@ -38,7 +38,7 @@ from fddbench.reporting.references import bibliography
 
 __all__ = ["content"]
 
-_MOST_REASONS = 60
+_MOST_REASONS = 30
 
 
 def content(report: ReportData) -> dict[str, Any]:
