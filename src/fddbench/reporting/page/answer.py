@@ -61,6 +61,7 @@ def answer(
     *,
     courses: Sequence[Course] = (),
     loudest: Loudest | None = None,
+    along_first: bool = False,
 ) -> Said:
     """Pieces of the sentence.
 
@@ -74,6 +75,8 @@ def answer(
         What the campaign varies.
     loudest : Loudest or None
         Healthy scenario with most false alarms.
+    along_first : bool
+        Whether what the campaign varies is what it asks for.
     """
     if not ranks:
         return [("Not decided: no flight was flown.", False)]
@@ -88,9 +91,8 @@ def answer(
         ]
     decided = [line for line in ranks if line.decided]
     best = decided[0]
-    said = _verdict(decided, second)
-    for course in courses:
-        said += _along(course)
+    said, along = _verdict(decided, second), [piece for course in courses for piece in _along(course)]
+    said = along + said if along_first else said + along
     if len(decided) == 1 or any(line.right.hits < line.decided for line in decided):
         said += _weakness(best, "It" if len(decided) == 1 else best.detector)
     said += _false_alarms(best, loudest)
@@ -102,7 +104,8 @@ def _verdict(decided: Sequence[Rank], second: PairedShares | None) -> Said:
     right = [line.right.hits == line.decided for line in decided]
     who = "Both detectors" if len(decided) == 2 else f"All {len(decided)} detectors"
     if len(decided) > 1 and all(right):
-        return [(f"{who} are right in time", True), (f" in all {n}{_bound(best)}. ", False)]
+        flights = "the one decided faulty flight" if best.decided == 1 else f"all {n}"
+        return [(f"{who} are right in time", True), (f" in {flights}{_bound(best)}. ", False)]
     if all(line.right.hits == 0 for line in decided):
         return [(f"{'The detector is' if len(decided) == 1 else who + ' are'} never right", True),
                 (f" in time in {n}. ", False)]  # fmt: skip

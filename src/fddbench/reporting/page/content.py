@@ -1,5 +1,6 @@
 """What stands in each section of the page."""
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -10,12 +11,12 @@ from fddbench.metrics.bound import breaches, with_bounds
 from fddbench.metrics.summary import summarize
 from fddbench.reporting import detectability, headlines, infeasible, tables
 from fddbench.reporting.bands import band_sections
-from fddbench.reporting.beside import beside
+from fddbench.reporting.beside import Beside, beside
 from fddbench.reporting.bounds import HEADS, bound_lines
 from fddbench.reporting.consequences import consequence_heads, consequence_lines
 from fddbench.reporting.guarantees import guarantee_lines
 from fddbench.reporting.labels import OUTCOMES
-from fddbench.reporting.page.answer import answer
+from fddbench.reporting.page.answer import Said, answer
 from fddbench.reporting.page.asked import asked
 from fddbench.reporting.page.cells import Cell, cells
 from fddbench.reporting.page.columns import Columns
@@ -24,6 +25,7 @@ from fddbench.reporting.page.counted import COUNTED_HEADS, counted_lines
 from fddbench.reporting.page.courses import courses, loudest
 from fddbench.reporting.page.data import ReportData
 from fddbench.reporting.page.envelope import envelope_maps, envelope_pairs, infeasible_map
+from fddbench.reporting.page.led_by import of_points, of_print, of_quiet
 from fddbench.reporting.page.matrix import matrix_lines
 from fddbench.reporting.page.operating import operating_scenes
 from fddbench.reporting.page.payload import payload
@@ -36,7 +38,7 @@ from fddbench.reporting.references import bibliography
 
 __all__ = ["content"]
 
-_MOST_REASONS = 60
+_MOST_REASONS = 30
 
 
 def content(report: ReportData) -> dict[str, Any]:
@@ -51,8 +53,9 @@ def content(report: ReportData) -> dict[str, Any]:
     ranks = ranking(columns, alarms, in_sample=report.in_sample, voted=voted)
     best = ranks[0].number if ranks and ranks[0].decided else None
     own = cells(columns, summary, best)
+    compared = [found for table in report.published if (found := beside(summary, table, report.campaign)) is not None]
     return {
-        **_head(report, ranks, columns),
+        **_head(report, ranks, columns, compared),
         "payload": payload(columns, own, report.folder),
         "ranks": rank_lines(ranks),
         "silence": silence(ranks),
@@ -61,7 +64,7 @@ def content(report: ReportData) -> dict[str, Any]:
         "matrix": matrix_lines(columns, own),
         "outcomes": [(look, OUTCOMES[name]) for name, look in _LEGEND.items()],
         **_pictures(report, columns, ranks, alarms),
-        **_more(report, summary),
+        **_more(report, summary, compared),
         "converging": [scene for line in ranks if (scene := convergence_scene(columns, line)) is not None],
         "references": bibliography(_methods(own.values()) | ({"monotone"} if _has_maps(report) else set())),
     }
@@ -88,7 +91,7 @@ def _methods(own: Iterable[Cell]) -> set[str]:
 _LEGEND = {"right": "o0", "late": "o1", "missed": "o3", "wrong_site": "o4", "false_alarm": "o5", "undecided": "o2"}
 
 
-def _head(report: ReportData, ranks: Sequence[Rank], columns: Columns) -> dict[str, Any]:
+def _head(report: ReportData, ranks: Sequence[Rank], columns: Columns, compared: Sequence[Beside]) -> dict[str, Any]:
     """The first screen."""
     names = ("benchmark", *report.choices, "reconfigure", "purpose", "seed", "sample_s")
     return {
@@ -99,23 +102,27 @@ def _head(report: ReportData, ranks: Sequence[Rank], columns: Columns) -> dict[s
         "counted": counted_lines(report.counted),
         "counted_heads": COUNTED_HEADS,
         "flown": headlines.flown_sentence(report.rows),
-        "answer": asked(
-            str(report.campaign.get("about") or ""),
-            report.rows,
-            report.consequences,
-            [each.scenario for each in report.recordings if each.cases],
-            commander=str(report.campaign.get("reconfigure") or ""),
-        )
-        + answer(
-            ranks,
-            second_beside_best(columns, ranks),
-            courses=courses(columns, report.swept),
-            loudest=loudest(columns, ranks),
-        ),
+        "answer": _answer(report, ranks, columns, compared),
         "in_sample": report.in_sample,
         "requirements": requirement_lines(report.requirements),
         "required": requirement_sentence(report.requirements),
     }
+
+
+def _answer(report: ReportData, ranks: Sequence[Rank], columns: Columns, compared: Sequence[Beside]) -> Said:
+    """What the campaign asks comes first, then which detector, where it fails, how sure that is."""
+    about = " ".join(str(report.campaign.get("about") or "").split())
+    drawn, loud = [each.scenario for each in report.recordings if each.cases], loudest(columns, ranks)
+    varied = (report.campaign.get("dispersions") or {}).get("sequence") or {}
+    first = asked(
+        about, report.rows, report.consequences, drawn, commander=str(report.campaign.get("reconfigure") or "")
+    )
+    first += of_quiet(about, loud)
+    first += of_points(about, columns, [f"p_{name}" for name in varied if f"p_{name}" in report.rows])
+    first += of_print(about, compared, ranks[0].detector if ranks else "")
+    second = second_beside_best(columns, ranks)
+    what = report.operating is None and re.match(r"What (do|does|is left)\b|How\b|At which\b", about) is not None
+    return first + answer(ranks, second, courses=courses(columns, report.swept), loudest=loud, along_first=what)
 
 
 _MOST_MAPS = 6
@@ -149,11 +156,10 @@ def _pictures(report: ReportData, columns: Columns, ranks: Sequence[Rank], alarm
     }
 
 
-def _more(report: ReportData, summary: pd.DataFrame) -> dict[str, Any]:
+def _more(report: ReportData, summary: pd.DataFrame, compared: Sequence[Beside]) -> dict[str, Any]:
     """What is folded away."""
     rows = report.rows
     reasons = tables.reason_lines(rows)
-    compared = [found for table in report.published if (found := beside(summary, table, report.campaign)) is not None]
     return {
         "compared": compared,
         "guarantees": guarantee_lines(rows, report.events, report.designs),
