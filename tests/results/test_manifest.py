@@ -24,6 +24,7 @@ def test_a_last_line_without_its_end_is_flown_again(campaign, flown, out):
 
 @pytest.mark.slow
 def test_every_flipped_bit_is_an_error_or_a_cut_off_append(out):
+    """Of a list of three lines. Seen to fail without the checksum of a line: digits of counts and cases change unseen."""
     path = out / "manifest.jsonl"
     lines = path.read_bytes().splitlines(keepends=True)[:3]
     text = b"".join(lines)

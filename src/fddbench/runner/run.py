@@ -1,6 +1,7 @@
 """Runs a campaign into a folder of results, and goes on where an earlier run stopped."""
 
 import time
+import warnings
 from collections import Counter
 from collections.abc import Callable, Generator
 from contextlib import nullcontext
@@ -26,6 +27,9 @@ from fddbench.runner.rehearsal import rehearsed
 from fddbench.runner.work import Work, lent
 
 __all__ = ["Progress", "RunReport", "run_campaign"]
+
+_CANCELLED = ".*still being processed by the workers have been cancelled"
+"""What joblib says where Ctrl-C ends a run, in a warning; the run says it itself, with a count."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -221,5 +225,7 @@ def _fly(folder: Path, shards: Generator[manifest.Shard, None, None], told: _Tol
     except KeyboardInterrupt:
         return True
     finally:
-        shards.close()
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", message=_CANCELLED)
+            shards.close()
     return False

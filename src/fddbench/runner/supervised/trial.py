@@ -6,11 +6,12 @@ this first, and says that it came to its end; mistakes that are exceptions are t
 module.
 """
 
+import json
 import os
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
@@ -59,18 +60,11 @@ def read_safely(path: Path, overrides: Sequence[str] = ()) -> Campaign:
 def _harm(path: Path, overrides: Sequence[str]) -> str:
     """What the plug-ins of a campaign do to the process that reads it, in words; "" for nothing."""
     ours, theirs = os.pipe()
-    line = [
-        sys.executable,
-        "-m",
-        "fddbench.runner.supervised.trial",
-        str(theirs),
-        str(os.getpid()),
-        str(path),
-        *overrides,
-    ]
+    asked = json.dumps({"path": str(path), "overrides": list(overrides), "search": sys.path})
+    line = [sys.executable, "-m", "fddbench.runner.supervised.trial", str(theirs), str(os.getpid()), asked]
     process = subprocess.Popen(
         line, pass_fds=[theirs], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, start_new_session=True,
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+        env={**os.environ, "PYTHONSAFEPATH": "1"},
     )  # fmt: skip
     os.close(theirs)
     try:
@@ -99,31 +93,28 @@ def _in_words(said: bytes, status: int) -> str:
     return f"ends the process with exit code {status}, or closes files that are not its own"
 
 
-def _main(fd: int, parent: int, path: str, overrides: Sequence[str]) -> None:
+def _main(fd: int, parent: int, path: str, overrides: Sequence[str], search: Sequence[str]) -> None:
     """Read, make and trace, then say so; whatever is an exception is told by whoever reads the campaign next."""
     own = os.getpid()
     die_with(parent)
     print_little()
     limit_data(MOST_GB)
+    sys.path[:] = (
+        search  # now that what is ours is imported: a file of anybody's may be called as a module of Python is
+    )
     word = _DONE
     try:
-        for own_detector in assemble(read_campaign(Path(path), overrides)).detectors.values():
-            _ = own_detector.obstacle
+        for detector in assemble(read_campaign(Path(path), overrides)).detectors.values():
+            _ = detector.obstacle
     except KeyboardInterrupt:
         word = _INTERRUPT
-    except BaseException as error:
-        word = _MEMORY if any(isinstance(each, MemoryError) for each in _chain(error)) else _DONE
+    except BaseException as error:  # the mistakes of a campaign are told in words
+        word = _MEMORY if isinstance(error, MemoryError) or "MemoryError" in str(error) else _DONE
     if os.getpid() == own:  # a file that forks says it once
         with suppress(OSError):
             os.write(fd, word)
     os._exit(0)
 
 
-def _chain(error: BaseException | None) -> Iterator[BaseException]:
-    while error is not None:
-        yield error
-        error = error.__cause__
-
-
 if __name__ == "__main__":
-    _main(int(sys.argv[1]), int(sys.argv[2]), sys.argv[3], sys.argv[4:])
+    _main(int(sys.argv[1]), int(sys.argv[2]), **json.loads(sys.argv[3]))
