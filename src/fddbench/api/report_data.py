@@ -21,7 +21,7 @@ from fddbench.errors import ResultsWarning, UntrustedError, warn
 from fddbench.reporting.bands import names_in
 from fddbench.reporting.page.columns import FAILED, NEEDS
 from fddbench.reporting.page.data import ReportData
-from fddbench.reporting.page.promises import promise_of
+from fddbench.reporting.page.promises import lost_reference, promise_of
 from fddbench.reporting.page.traces import MOST_SCENARIOS
 from fddbench.reporting.published import iterations_for, published_for
 from fddbench.reporting.reasons import reason_table
@@ -128,7 +128,7 @@ def _designs(campaign: Campaign, assembly: Assembly) -> list[dict[str, Any]]:
             "name": d.name, "kind": d.kind.name, "source": d.source, "about": d.about, "sha256": d.sha256, "gamma": d.gamma,
             "load": in_words(detector_load(assembly.detectors[d.name], assembly.loop.bus, timed=False)),
             "sees": assembly.detectors[d.name].sees,
-            "promise": promise_of(yaml.safe_load(d.text) or {}),
+            "promise": promise_of(text := yaml.safe_load(d.text) or {}), "lost_reference": lost_reference(text),
         }
         for d in campaign.designs
     ]  # fmt: skip

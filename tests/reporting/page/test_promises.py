@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fddbench.reporting.page.promises import promise_of
+from fddbench.reporting.page.promises import lost_reference, promise_of
 
 START, FOUND = {"a": [-1.0], "b": [1.0], "c": [0.5], "d": [1.4]}, {"D": [[3.0]]}
 
@@ -22,6 +22,9 @@ def test_a_fixed_reference_is_promised_as_it_is_written():
 def test_of_a_search_its_result_is_promised_and_not_its_start(method):
     assert promise_of(design(method, reference=START, found={"reference": FOUND})).D.item() == 3.0
     assert promise_of(design(method, reference=START, found={"gamma": 0.3})) is None
+    assert lost_reference(design(method, reference=START, found={"gamma": 0.3}))
+    assert not lost_reference(design(method, found={"reference": FOUND}))
+    assert not lost_reference(design("fixed_reference", reference=START))
 
 
 def test_what_estimates_the_faults_promises_them():

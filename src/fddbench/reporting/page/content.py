@@ -63,8 +63,12 @@ def content(report: ReportData) -> dict[str, Any]:
         **_pictures(report, columns, ranks, alarms),
         **_more(report, summary),
         "converging": [scene for line in ranks if (scene := convergence_scene(columns, line)) is not None],
-        "references": bibliography(_methods(own.values())),
+        "references": bibliography(_methods(own.values()) | ({"monotone"} if _has_maps(report) else set())),
     }
+
+
+def _has_maps(report: ReportData) -> bool:
+    return report.detectable is not None and not report.detectable.empty
 
 
 def _methods(own: Iterable[Cell]) -> set[str]:
@@ -75,7 +79,7 @@ def _methods(own: Iterable[Cell]) -> set[str]:
             "incidence": cell.incidence,
             "association": cell.associations,
             "paired": cell.paired,
-            "monotone": cell.size,
+            "curve": cell.size is not None and cell.size.curve is not None,
         }
         found |= {name for name, what in told.items() if what}
     return found
@@ -125,7 +129,7 @@ def _pictures(report: ReportData, columns: Columns, ranks: Sequence[Rank], alarm
     chosen = [line.number for line in ranks[:most]]
     maps = [scene for x, y in pairs if (scene := infeasible_map(columns, x, y)) is not None]
     promises = {str(d["name"]): d["promise"] for d in report.designs if d.get("promise") is not None}
-    own = report.detectable if report.detectable is not None and not report.detectable.empty else None
+    own = report.detectable if _has_maps(report) else None
     return {
         "folder": report.folder,
         "operating": operating_scenes(report.operating) if report.operating is not None else [],
@@ -140,6 +144,7 @@ def _pictures(report: ReportData, columns: Columns, ranks: Sequence[Rank], alarm
         "bands": band_sections(report.bands, report.responses, report.shown),
         "signals": signal_sections(report.recordings, report.rows, [line.detector for line in ranks], promises),
         "promised": bool(promises),
+        "unpromised": [str(d["name"]) for d in report.designs if d.get("lost_reference")],
         "unflown": report.unflown,
     }
 

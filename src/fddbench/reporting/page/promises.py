@@ -8,7 +8,7 @@ import numpy as np
 
 from fddbench.interfaces import Floats, Recording
 
-__all__ = ["Promise", "promise_of"]
+__all__ = ["Promise", "lost_reference", "promise_of"]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -79,6 +79,14 @@ def promise_of(content: Mapping[str, Any]) -> Promise | None:
     if reference is None:
         return _matrices({"D": np.eye(len(rows)).tolist()}, float(window_s)) if gains.get("estimates_faults") else None
     return _matrices(reference, float(window_s))
+
+
+def lost_reference(content: Mapping[str, Any]) -> bool:
+    """Whether a design was made for a reference that a search found and its file does not keep: its promise is unknown."""
+    recipe = content.get("recipe")
+    if content.get("kind") != "hinf_filter" or not isinstance(recipe, Mapping):
+        return False
+    return recipe.get("method") in _SEARCHING and not (recipe.get("found") or {}).get("reference")
 
 
 def _matrices(reference: Mapping[str, Any], window_s: float) -> Promise:
