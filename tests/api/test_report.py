@@ -1,8 +1,10 @@
 """`fddbench.report`: pages of one folder, of the newest, of several, its pictures, and the same numbers everywhere."""
 
+import csv
 import json
 import re
 import shutil
+from io import StringIO
 
 import pytest
 import yaml
@@ -51,7 +53,7 @@ def test_the_same_numbers_stand_in_page_terminal_table_and_scores(flown, page, c
     assert main(["scores", str(flown)]) == 0
     scores = {(each["scenario"], each["detector"]): each for each in yaml.safe_load(capsys.readouterr().out)["scores"]}
     assert main(["table", str(flown), "--format", "csv"]) == 0
-    table = {tuple(line.split(",")[:2]): line for line in capsys.readouterr().out.splitlines()}
+    table = {(each["scenario"], each["detector"]): each for each in csv.DictReader(StringIO(capsys.readouterr().out))}
     names = ("right", "late", "undecided", "missed", "wrong_site", "false_alarm")
     for line in summary.to_dict("records"):
         who = line["scenario"], line["detector"]
@@ -61,9 +63,28 @@ def test_the_same_numbers_stand_in_page_terminal_table_and_scores(flown, page, c
         assert cell["o"] == own
         assert cell["n"] == line["flown"] == scores[who].get("flown") == sum(own)
         assert [scores[who].get(name, 0) for name in first] == own
-        assert who in table
+        assert [int(table[who][name] or 0) for name in first] == own
         if cell["r"]:
             assert cell["r"][0] == fddbench_percent(line["right_percent"])
+
+
+def test_false_alarms_of_distinct_flights_are_the_same_in_page_terminal_and_rows(flown, page):
+    from fddbench.api.tables import alarms
+    from fddbench.reporting.terminal import to_text
+
+    rows, found = fddbench.load(flown), alarms(flown)
+    healthy = rows[(rows["status"] == "ok").to_numpy(dtype=bool)]
+    text = to_text(fddbench.summary(flown), found, wide=True).partition("False alarms of distinct flights")[2]
+    cells = [
+        re.sub("<[^>]+>", " ", line) for line in re.findall(r"<tr>.*?</tr>", page[page.index("h-ranks") :], re.DOTALL)
+    ]
+    for line in found.to_dict("records"):
+        own = healthy[(healthy["detector"] == line["detector"]).to_numpy(dtype=bool)]
+        assert line["distinct_flights"] == len(own[["manoeuvre", "point", "run"]].drop_duplicates())
+        of = f"of {line['distinct_flights']} flights"
+        assert any(line["detector"] in cell and of in cell for cell in cells)
+        told = next(each.split() for each in text.splitlines() if each.strip().startswith(line["detector"]))
+        assert told[1:3] == [str(line["distinct_flights"]), str(line["alarms"])]
 
 
 def pd_na():
