@@ -56,29 +56,24 @@ def shipped(name):
     return gallery.folder("campaigns") / f"{name}.yaml"
 
 
+SHORT = {
+    "yaw_rate_table8": ["dispersions.monte_carlo.runs=1", "requirements=[]"],
+    "jet_engine_monte_carlo": ["dispersions.monte_carlo.runs=1", "requirements=[]"],
+    "b747_monte_carlo": ["dispersions.monte_carlo.runs=1"],
+}
+"""All detectors and scenarios of the long campaigns, one run of each."""
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("campaign", "overrides"),
-    [
-        ("smoke", []),
-        (
-            "yaw_rate_table8",
-            ["dispersions.monte_carlo.runs=1", "detectors=[sliding_mode_published]", "requirements=[]"],
-        ),
-        ("jet_engine_monte_carlo", ["dispersions.monte_carlo.runs=1", "detectors=[hinf_start]", "requirements=[]"]),
-        ("b747_monte_carlo", ["dispersions.monte_carlo.runs=1", "detectors=[lpv_filter_envelope]"]),
-    ],
-)
-def test_rows_are_equal_bit_for_bit(campaign, overrides, tmp_path):
-    path = shipped(campaign)
-    own = read_campaign(path, overrides)
-    entries = [
-        f"scenarios.{n}.runs={overrides[0].split('=')[1]}"
-        for n, s in enumerate(own.scenarios)
-        if overrides and s.entry.runs
-    ]
-    wanted = flown(tmp_path / "engine", path, *overrides, *entries)
-    found = flown(tmp_path / "c", path, *overrides, *entries, compiled_as="c")
+@pytest.mark.parametrize("campaign", ["smoke", *SHORT])
+def test_rows_are_equal_bit_for_bit(campaign, tmp_path):
+    """Smoke is flown whole, of the others one run of each scenario."""
+    path, overrides = shipped(campaign), list(SHORT.get(campaign, []))
+    if overrides:
+        scenarios = read_campaign(path, overrides).scenarios
+        overrides += [f"scenarios.{n}.runs=1" for n, each in enumerate(scenarios) if each.entry.runs]
+    wanted = flown(tmp_path / "engine", path, *overrides)
+    found = flown(tmp_path / "c", path, *overrides, compiled_as="c")
     assert found.equals(wanted)
     assert events_of(tmp_path / "c").equals(events_of(tmp_path / "engine"))
     said = json.loads((tmp_path / "c" / "provenance.json").read_text())["flown_as_c"]
@@ -86,16 +81,48 @@ def test_rows_are_equal_bit_for_bit(campaign, overrides, tmp_path):
     assert all("-ffp-contract=off" in each for each in said.values())
 
 
+SANITIZERS = "-g -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all"
+
+
 @pytest.mark.slow
-def test_sanitizers_find_nothing_over_the_smoke_campaign(tmp_path, monkeypatch):
-    sanitizers = "-g -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all"
-    wanted = flown(tmp_path / "engine", shipped("smoke"), *FAST)
-    monkeypatch.setenv("CFLAGS", sanitizers)
+@pytest.mark.parametrize(
+    ("command", "flags"),
+    [
+        ("gcc", "-O0"),
+        ("gcc", "-O3 -march=native"),
+        ("clang", "-O0"),
+        ("clang", "-O3 -march=native"),
+        ("gcc", SANITIZERS),
+    ],
+)
+def test_the_whole_smoke_campaign_has_equal_rows_with_every_compiler(command, flags, tmp_path, monkeypatch):
+    """Address and undefined-behaviour sanitizers end the code where they find something, so its rows would be errors."""
+    wanted = flown(tmp_path / "engine", shipped("smoke"))
+    monkeypatch.setenv("CC", command)
+    monkeypatch.setenv("CFLAGS", flags)
     compiler.cache_clear()
     try:
-        assert flown(tmp_path / "c", shipped("smoke"), *FAST, compiled_as="c").equals(wanted)
+        assert flown(tmp_path / "c", shipped("smoke"), compiled_as="c").equals(wanted)
     finally:
         compiler.cache_clear()
+    said = json.loads((tmp_path / "c" / "provenance.json").read_text())["flown_as_c"]
+    assert len(said) == 2
+    assert all(flags in each for each in said.values())
+
+
+@pytest.mark.slow
+def test_sanitizers_end_the_code_that_leaves_an_array(tmp_path, monkeypatch):
+    monkeypatch.setenv("CFLAGS", SANITIZERS)
+    compiler.cache_clear()
+    beyond = "    if (in->r_deg_s[0U] > 5.0) { x->held_samples = in->r_deg_s[(uint32_t)in->r_deg_s[0U]]; }\n"
+    call = "    voting_monitor(in, x, &s);"
+    try:
+        campaign = own_files(tmp_path, lambda text: text.replace(call, beyond + call))
+        rows = flown(tmp_path / "results", campaign, *FAST).to_pandas()
+    finally:
+        compiler.cache_clear()
+    assert set(rows[rows.status == "error"].detector) == {"supplied"}
+    assert rows[rows.status == "error"].reason.str.contains("the code ended its process with 1").all()
 
 
 @pytest.mark.slow
