@@ -42,7 +42,7 @@ def size_scene(parts: Parted, fitted: Fitted, *, name: str, label: str, number: 
     plot = Plot(46, 8, 310, 120, scale, _PERCENT)
     marks = plot.frame(f"{name}{', log' if scale.log else ''}", "right [%]")
     curve = plot.at(np.array(fitted.sizes), 100.0 * np.array(fitted.shares))
-    marks.append(Path(curve, f"s{number % 8}"))
+    marks.append(Path(curve, "ik"))
     if fitted.size_90 is not None:
         marks.append(plot.upright(fitted.size_90, "on"))
     if fitted.size_90_95 is not None:
@@ -59,6 +59,6 @@ def _point(plot: Plot, x: float, hits: int, flights: int, ends: tuple[float, flo
     if np.isfinite(ends[0]):
         marks.append(Path([plot.at(x, 100.0 * end)[0] for end in ends], f"e{number % 8}"))
     marks.append(Dot(px, py, f"d{number % 8}", title=f"{hits} of {flights}"))
-    # within the plot, beside the point: on the side where the curve is not
-    below = hits > 0.5 * flights
-    return [*marks, Text(px, py + 16 if below else py - 8, f"{hits}/{flights}", "ts", "middle", size=9)]
+    if py > plot.top + 0.8 * plot.height:  # above the curve where there is no room below
+        return [*marks, Text(px - 6, py - 6, f"{hits}/{flights}", "ts", "end", size=9)]
+    return [*marks, Text(px + 6, py + 14, f"{hits}/{flights}", "ts", size=9)]

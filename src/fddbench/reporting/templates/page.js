@@ -69,13 +69,13 @@ function sized(k, cls, foot) {
   const [name, , hit, n, lo, hi, , [mid, at, share, s90, top]] = k, L = 46, W = 310, T = 8, H = 120;
   const A = axis([...mid, ...at, s90 || 0, top || 0], 0), X = v => R(L + W * A.x(v)), Y = p => R(T + H * (1 - p));
   let g = yaxis([0, .5, .9], L, W, Y, T + H / 2, 'right [%]') + xaxis(A, X, L, W, T + H, esc(name));
-  g += `<path class="s${cls}" d="M${at.map((v, i) => `${X(v)} ${Y(share[i] / 1000)}`).join('L')}"/>`;
+  g += `<path class="ik" d="M${at.map((v, i) => `${X(v)} ${Y(share[i] / 1000)}`).join('L')}"/>`;
   [[s90, 'on'], [top, 'lim']].forEach(([v, c]) => { if (v !== null) g += `<path class="${c}" d="M${X(v)} ${T}v${H}"/>`; });
   mid.forEach((v, i) => {
     if (!n[i] || v === null) return;
     const x = X(v), y = Y(hit[i] / n[i]);
     if (lo[i] !== null) g += `<path class="e${cls}" d="M${x} ${Y(lo[i] / 100)}V${Y(hi[i] / 100)}"/>`;
-    g += `<circle class="d${cls}" cx="${x}" cy="${y}" r="3.5"><title>${hit[i]} of ${n[i]}</title></circle><text class="ts m z9" x="${x}" y="${hit[i] > n[i] / 2 ? y + 16 : y - 8}">${hit[i]}/${n[i]}</text>`;
+    g += `<circle class="d${cls}" cx="${x}" cy="${y}" r="3.5"><title>${hit[i]} of ${n[i]}</title></circle><text class="ts z9" ${y > 106 ? `x="${x - 6}" y="${y - 6}" text-anchor="end"` : `x="${x + 6}" y="${y + 14}"`}>${hit[i]}/${n[i]}</text>`;
   });
   return `<figure><svg viewBox="0 0 366 162" role="img" aria-label="${esc('right [%] by ' + name)}">${g}</svg><figcaption>${foot}</figcaption></figure>`;
 }
