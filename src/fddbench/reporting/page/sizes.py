@@ -14,7 +14,7 @@ from fddbench.reporting.page.columns import Columns
 
 __all__ = ["SizeCurve", "size_curve"]
 
-_NOT_HERE = "not fitted here"
+_NOT_HERE = "its curve is that of fddbench pod, not drawn here"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
