@@ -147,10 +147,9 @@ def _replayed(folder: Path, campaign: Campaign) -> dict[str, str]:
 
 
 def _pictured(rows: pd.DataFrame, content: Mapping[str, Any]) -> pd.DataFrame:
-    """Rows of the scenarios whose signals are shown: of those that the campaign names, else of all, the worst."""
-    named = (content.get("report") or {}).get("scenarios")
-    asked = rows[np.asarray(rows["scenario"].isin(named), dtype=bool)] if named else rows
-    return asked[np.asarray(asked["scenario"].isin(_worst_scenarios(asked)), dtype=bool)]
+    """Rows of the scenarios whose signals are shown: those that the campaign names, else those that go worst."""
+    named = (content.get("report") or {}).get("scenarios") or _worst_scenarios(rows)
+    return rows[np.asarray(rows["scenario"].isin(named), dtype=bool)]
 
 
 def _worst_scenarios(rows: pd.DataFrame) -> list[str]:
