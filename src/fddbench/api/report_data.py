@@ -34,7 +34,7 @@ from fddbench.runner.assembling import assemble
 from fddbench.runner.assembly import Assembly
 from fddbench.runner.banded import bands_of
 from fddbench.runner.fingerprint import frozen, other_program
-from fddbench.runner.load import detector_load, in_words
+from fddbench.runner.load import detector_load
 from fddbench.runner.replay import replay_campaign, sampled_cases
 
 __all__ = ["report_data"]
@@ -100,7 +100,7 @@ def _with_code(folder: Path, campaign: Campaign, provenance: Mapping[str, Any], 
         rows=rows,
         events=read_events(folder, _OF_EVENTS, fair=True),
         provenance=_flat(provenance) | _replayed(folder, campaign),
-        designs=_designs(campaign, assembly),
+        designs=_designs(campaign, assembly, provenance),
         **(_flown_again(campaign, rows, content) if replay else {"recordings": [], "unflown": _NO_REPLAY}),
         folder=folder.as_posix(),
         reasons=reason_table(campaign.name, campaign.sha256),
@@ -121,17 +121,23 @@ def _with_code(folder: Path, campaign: Campaign, provenance: Mapping[str, Any], 
     )
 
 
-def _designs(campaign: Campaign, assembly: Assembly) -> list[dict[str, Any]]:
+def _designs(campaign: Campaign, assembly: Assembly, provenance: Mapping[str, Any]) -> list[dict[str, Any]]:
     """What is said of each design."""
     return [
         {
             "name": d.name, "kind": d.kind.name, "source": d.source, "about": d.about, "sha256": d.sha256, "gamma": d.gamma,
-            "load": in_words(detector_load(assembly.detectors[d.name], assembly.loop.bus, timed=False)),
+            **_load(assembly, d.name), "in_c": provenance.get("load_in_c", {}).get(d.name),
             "sees": assembly.detectors[d.name].sees,
             "promise": promise_of(text := yaml.safe_load(d.text) or {}), "lost_reference": lost_reference(text),
         }
         for d in campaign.designs
     ]  # fmt: skip
+
+
+def _load(assembly: Assembly, name: str) -> dict[str, Any]:
+    """What a step of a detector costs, counted; or why it cannot be."""
+    load = detector_load(assembly.detectors[name], assembly.loop.bus, timed=False)
+    return {"cost": load.cost, "every": load.every, "opaque": load.opaque}
 
 
 def _columns(folder: Path) -> list[str]:
@@ -194,8 +200,8 @@ def _flat(provenance: Mapping[str, object]) -> dict[str, str]:
     """Provenance as text, nested entries by dotted names; of the source its fingerprint is enough."""
     flat: dict[str, str] = {}
     for name, value in provenance.items():
-        if isinstance(value, Mapping) and name != "source":
+        if isinstance(value, Mapping) and name not in {"source", "load_in_c"}:
             flat |= {f"{name}.{inner}": str(entry) for inner, entry in value.items()}
-        elif name != "source":
+        elif name not in {"source", "load_in_c"}:
             flat[name] = str(value)
     return flat

@@ -68,11 +68,12 @@ def rows_alone(
 
 def _designs(folder: Path) -> list[dict[str, Any]]:
     """What is said of each design by its file; what a step costs nobody knows who does not build it."""
-    digests, voted = provenance_of(folder)["designs_sha256"], voted_as_written(folder)
+    provenance, voted = provenance_of(folder), voted_as_written(folder)
+    digests, measured = provenance["designs_sha256"], provenance.get("load_in_c", {})
     return [
         {
             "name": name, "kind": own.kind, "source": own.source, "about": own.about, "sha256": str(digests[name]),
-            "gamma": own.gamma, "sees": "voted" if name in voted else "sensors",
+            "gamma": own.gamma, "sees": "voted" if name in voted else "sensors", "in_c": measured.get(name),
         }
         for name, own in designs_as_written(folder).items()
     ]  # fmt: skip

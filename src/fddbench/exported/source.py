@@ -221,7 +221,8 @@ def _known(interface: Interface) -> dict[int, str]:
 
 
 _GUARDS = (
-    "/* The bits are those of IEEE 754, operation by operation. Compile with -ffp-contract=off and without -ffast-math. */",
+    "/* The bits are those of IEEE 754, operation by operation. Compile with -ffp-contract=off and without -ffast-math;",
+    " * GCC 12 needs -fno-tree-slp-vectorize too where it may fuse operations (-O3 -march=native); the self-test tells. */",
     "#if defined(__FAST_MATH__)",
     "#error this file needs the arithmetic of IEEE 754: compile it without -ffast-math",
     "#endif",

@@ -20,7 +20,7 @@ from fddbench.runner.chunks import CHUNK, COMPILED_CHUNK, OPAQUE_CHUNK, cut, spa
 from fddbench.runner.engines import Engine
 from fddbench.runner.fingerprint import fingerprint_of, provenance_for
 from fddbench.runner.flight import Flyer
-from fddbench.runner.in_c import InC
+from fddbench.runner.in_c import InC, loads_in_c
 from fddbench.runner.left import Left, Part, Wanted, left_in
 from fddbench.runner.pool import fly_all
 from fddbench.runner.rehearsal import rehearsed
@@ -151,9 +151,10 @@ def _report(folder: Path, told: "_Told", *, interrupted: bool, wall_s: float) ->
 
 
 def in_c(flyer: Flyer) -> dict[str, object]:
-    """Which detectors fly as C, and who compiled it, for the provenance; nothing where none does."""
+    """Which detectors fly as C, who compiled it and what it takes, for the provenance; nothing where none does."""
     flown = {name: own.detector for name, own in flyer.assembly.detectors.items() if isinstance(own.detector, InC)}
-    return {"flown_as_c": {name: str(each.by) for name, each in flown.items()}} if flown else {}
+    loads = loads_in_c(flown)
+    return {"flown_as_c": {name: str(each.by) for name, each in flown.items()}, "load_in_c": loads} if flown else {}
 
 
 def _few_files(folder: Path, fingerprint: str, say: Callable[[str], None]) -> None:

@@ -16,6 +16,7 @@ from fddbench.reporting.bounds import HEADS, bound_lines
 from fddbench.reporting.consequences import consequence_heads, consequence_lines
 from fddbench.reporting.guarantees import guarantee_lines
 from fddbench.reporting.labels import OUTCOMES
+from fddbench.reporting.loads import load_heads, load_lines, measured_by
 from fddbench.reporting.page.answer import Said, answer
 from fddbench.reporting.page.asked import asked
 from fddbench.reporting.page.cells import Cell, cells
@@ -175,6 +176,9 @@ def _more(report: ReportData, summary: pd.DataFrame, compared: Sequence[Beside])
         "events": tables.event_lines(report.events) if len(report.events) else [],
         "provenance": report.provenance,
         "designs": report.designs,
+        "loads": load_lines(report.designs),
+        "load_heads": load_heads(report.designs),
+        "load_by": measured_by(report.designs),
         "campaign_text": _as_yaml(report.campaign),
     }
 

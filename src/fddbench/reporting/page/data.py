@@ -27,7 +27,7 @@ class ReportData:
     provenance : mapping of str to str
         Versions, machine, date, wall time, hashes: shown as it is.
     designs : sequence of mapping
-        Per detector name, kind, source, about, load (of a step, in words), sees ("sensors" or "voted"), sha256.
+        Per detector name, kind, source, about, sees ("sensors" or "voted"), sha256, and what `fddbench.reporting.loads` shows.
     recordings : sequence of Recording
         Re-flown cases, one recording per scenario.
     unflown : str
