@@ -184,7 +184,7 @@ def test_sound_detectors_pass(tmp_path, body):
 
 @pytest.mark.skipif(sys.platform != "linux", reason="kills a process")
 def test_a_process_that_is_killed_from_outside_accuses_nobody(tmp_path, monkeypatch):
-    """Without the new attempts in `_sound_company` the detector is said to keep something outside its state."""
+    """Without the new attempts in `_sound_company` it is said to keep something outside its state, or there is a traceback."""
     seen, killed, known = [], [], FlightProcess.step
 
     def step(self, message):
