@@ -44,7 +44,7 @@ def written(folder, campaign, name, samples):
 
 
 LEVELS = (["-O0"], ["-O2"], ["-O3", "-march=native", "-fno-tree-slp-vectorize"])
-"""The last flag is for GCC 12, which contracts in spite of -ffp-contract=off: without it sliding_mode_p_and_r has other bits."""
+"""The last flag is for GCC 12, which contracts in spite of -ffp-contract=off: sliding_mode_p_and_r differs without it."""
 
 
 def test_every_shipped_design_can_be_exported():
