@@ -1,6 +1,7 @@
 """The command that makes C of a design."""
 
 import argparse
+import shlex
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +32,8 @@ def export(args: argparse.Namespace) -> int:
     if code.loss:
         said = ", ".join(f"{key} {value:.2g}" for key, value in code.loss.items())
         print(f"single precision against double, on the vectors: {said}")
-    print(f"test it: cd {output} && cc -std=c99 -O2 -ffp-contract=off {name}.c {name}_selftest.c -lm && ./a.out")
+    compiled = f"cc -std=c99 -O2 -ffp-contract=off {name}.c {name}_selftest.c -lm"
+    print(f"test it: cd {shlex.quote(str(output))} && {compiled} && ./a.out")
     return 0
 
 
