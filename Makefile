@@ -14,7 +14,7 @@ demo: $(VENV)/ready
 test: $(VENV)/ready-dev lint
 	$(BIN)/python -m pytest -n auto -m "not slow"
 
-# what takes minutes or needs a browser and compilers: `.ci/run` runs it
+# what takes minutes or needs a browser and compilers
 test-slow: $(VENV)/ready-dev
 	bash .ci/tools
 	$(BIN)/python -m pytest -n auto -m slow
