@@ -1,8 +1,10 @@
 """`fddbench.report`: pages of one folder, of the newest, of several, its pictures, and the same numbers everywhere."""
 
+import csv
 import json
 import re
 import shutil
+from io import StringIO
 
 import pytest
 import yaml
@@ -51,7 +53,7 @@ def test_the_same_numbers_stand_in_page_terminal_table_and_scores(flown, page, c
     assert main(["scores", str(flown)]) == 0
     scores = {(each["scenario"], each["detector"]): each for each in yaml.safe_load(capsys.readouterr().out)["scores"]}
     assert main(["table", str(flown), "--format", "csv"]) == 0
-    table = {tuple(line.split(",")[:2]): line for line in capsys.readouterr().out.splitlines()}
+    table = {(each["scenario"], each["detector"]): each for each in csv.DictReader(StringIO(capsys.readouterr().out))}
     names = ("right", "late", "undecided", "missed", "wrong_site", "false_alarm")
     for line in summary.to_dict("records"):
         who = line["scenario"], line["detector"]
@@ -61,9 +63,28 @@ def test_the_same_numbers_stand_in_page_terminal_table_and_scores(flown, page, c
         assert cell["o"] == own
         assert cell["n"] == line["flown"] == scores[who].get("flown") == sum(own)
         assert [scores[who].get(name, 0) for name in first] == own
-        assert who in table
+        assert [int(table[who][name] or 0) for name in first] == own
         if cell["r"]:
             assert cell["r"][0] == fddbench_percent(line["right_percent"])
+
+
+def test_false_alarms_of_distinct_flights_are_the_same_in_page_terminal_and_rows(flown, page):
+    from fddbench.api.tables import alarms
+    from fddbench.reporting.terminal import to_text
+
+    rows, found = fddbench.load(flown), alarms(flown)
+    healthy = rows[(rows["status"] == "ok").to_numpy(dtype=bool)]
+    text = to_text(fddbench.summary(flown), found, wide=True).partition("False alarms of distinct flights")[2]
+    cells = [
+        re.sub("<[^>]+>", " ", line) for line in re.findall(r"<tr>.*?</tr>", page[page.index("h-ranks") :], re.DOTALL)
+    ]
+    for line in found.to_dict("records"):
+        own = healthy[(healthy["detector"] == line["detector"]).to_numpy(dtype=bool)]
+        assert line["distinct_flights"] == len(own[["manoeuvre", "point", "run"]].drop_duplicates())
+        of = f"of {line['distinct_flights']} flights"
+        assert any(line["detector"] in cell and of in cell for cell in cells)
+        told = next(each.split() for each in text.splitlines() if each.strip().startswith(line["detector"]))
+        assert told[1:3] == [str(line["distinct_flights"]), str(line["alarms"])]
 
 
 def pd_na():
@@ -111,6 +132,15 @@ def test_several_folders_are_compared(flown, tmp_path, capsys):
     assert "none is no folder" in capsys.readouterr().err
 
 
+def test_who_sees_the_voted_signal_alone_comes_last_beside_other_folders_too(flown, monkeypatch):
+    from fddbench.api import comparison_data
+
+    best = comparison_data.comparison_data([flown]).folders[0].ranks[0][1]
+    monkeypatch.setattr(comparison_data, "voted_only", lambda _: (best,))
+    (folder,) = comparison_data.comparison_data([flown]).folders
+    assert folder.ranks[-1][1:3] == (best, "sees the voted signal")
+
+
 @pytest.mark.parametrize(
     "draw",
     [
@@ -149,3 +179,16 @@ def test_commands_of_worst_flights_fly_again(flown, page):
     case = f"{data['s'][2]['n']}/{data['c'][2][1]['w'][0]}"
     assert case in set(fddbench.load(flown, ["case"])["case"])
     assert data["f"] == Markup(flown.as_posix())
+
+
+def test_an_alarm_before_the_onset_is_a_failure_where_a_picture_looks_for_most_of_them():
+    from types import SimpleNamespace
+
+    from fddbench.api.report_pictures import _scenario
+
+    lines = (
+        {"wrong_site": 1, "late": None, "missed": 0, "false_alarm": 0},
+        {"wrong_site": 0, "late": 0, "missed": 0, "false_alarm": 2},
+    )
+    cells = {(s, 0): SimpleNamespace(line=line, incidence=True) for s, line in enumerate(lines)}
+    assert _scenario(SimpleNamespace(scenarios=("calm", "gusty")), cells, "") == 1

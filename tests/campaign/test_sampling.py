@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fddbench.campaign.rules.model import Dispersions, Distribution, MonteCarlo, Normal, TruncatedNormal
+from fddbench.campaign.rules.dispersions import Dispersions, Distribution, MonteCarlo, Normal, TruncatedNormal
 from fddbench.campaign.sampling import digits, parameters, point_radices
 from fddbench.interfaces import Parameter
 

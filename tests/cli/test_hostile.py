@@ -2,6 +2,8 @@
 
 import json
 import shutil
+import tempfile
+from pathlib import Path
 
 import pytest
 from tests.cli.test_commands import TINY
@@ -250,3 +252,20 @@ def test_a_full_disk_is_said_and_nothing_is_lost(done, capsys, monkeypatch):
     monkeypatch.undo()
     monkeypatch.chdir(done.parent)
     assert main(["run", "tiny.yaml", "--quiet", "--jobs", "1", "--out", "out"]) == 0
+
+
+@pytest.mark.parametrize("name", ["x.csv", "x.parquet", "x.mat", "x.h5"])
+def test_a_table_of_a_flight_in_a_folder_that_is_not_there(done, capsys, name):
+    assert main(["replay", "out", "jam_b/0/0/0", "--to", f"absent/{name}"]) == 2
+    assert f"cannot write absent/{name}: there is no folder absent; make it, or name another file with --to" in (
+        capsys.readouterr().err
+    )
+
+
+def test_a_detector_that_does_not_fit_an_extension_is_told_in_places_that_its_reader_knows(done, capsys):
+    assert main(["extend", "out", "--detector", "hinf_final", "--quiet"]) == 2
+    error = capsys.readouterr().err
+    assert "hinf_filter needs the signals ['y', 'u']" in error
+    assert error.startswith("fddbench: the larger campaign: ")
+    assert "campaign.yaml" not in error
+    assert str(Path(tempfile.gettempdir()) / "tmp") not in error

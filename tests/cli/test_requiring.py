@@ -10,6 +10,7 @@ import fddbench
 from fddbench.api.requiring import judgements
 from fddbench.cli.main import main
 from fddbench.reporting.requirements import to_junit, to_summary, to_text
+from fddbench.results import folder as folder_of_results
 
 CAMPAIGN = """
 name: required
@@ -150,6 +151,27 @@ def test_flown_until_decided_are_the_rows_of_more_runs_and_going_on_adds_none(pa
     assert judgements(tmp_path / "straight") == found
     one, other = fddbench.load(tmp_path / "out"), fddbench.load(tmp_path / "straight")
     assert one.equals(other)
+
+
+def test_a_stage_that_was_cut_off_between_its_two_files_goes_on(path, tmp_path, monkeypatch, capsys):
+    """Without `_runs_begun` the same command is refused for ever, as of another campaign."""
+    command = ["run", str(path), "--out", str(tmp_path / "out"), "--quiet", "--jobs", "1", "--until", "decided"]
+    command += ["--at-most", "40"]
+    known = folder_of_results.write_bytes
+
+    def killed(file, data):
+        if file.name == "campaign.yaml" and file.exists():
+            raise KeyboardInterrupt
+        known(file, data)
+
+    monkeypatch.setattr(folder_of_results, "write_bytes", killed)
+    assert main(command) == 130
+    monkeypatch.undo()
+    assert folder_of_results.changed_files(tmp_path / "out") == ["campaign.yaml"]
+    assert main(command) == 0
+    straight = ["run", str(path), "--out", str(tmp_path / "straight"), "--quiet", "--jobs", "1"]
+    assert main([*straight, "--set", "dispersions.monte_carlo.runs=40"]) == 0
+    assert fddbench.load(tmp_path / "out").equals(fddbench.load(tmp_path / "straight"))
 
 
 def test_it_ends_undecided_after_so_many_runs(path, tmp_path, capsys):

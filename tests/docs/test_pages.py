@@ -74,6 +74,37 @@ def test_every_command_is_typed_somewhere():
     assert set(action.choices) - typed == set()
 
 
+def _of_readme():
+    """Rows of the README's table: the commands of a row as they are written, and the whole row."""
+    table = (ROOT / "README.md").read_text(encoding="utf-8").split("\n## Commands\n")[1].split("\nExit codes")[0]
+    rows = [line for line in table.splitlines() if line.startswith("| `")]
+    return [(re.findall(r"`fddbench (\w+[^`]*)`", row.replace(r"\|", "|")), row) for row in rows]
+
+
+@pytest.mark.parametrize(("written", "row"), _of_readme(), ids=lambda one: one[0].split()[0] if one else None)
+def test_the_options_in_the_table_of_the_readme_exist(written, row):
+    """The options that stand anywhere in a row are options of its command, their words are among those that it takes."""
+    (action,) = parser()._subparsers._group_actions
+    assert written
+    options = {}
+    for text in written:
+        options |= action.choices[text.split()[0]]._option_string_actions
+        shown = set(re.findall(r"\[?(--[a-z-]+)", text))
+        needed = {
+            o.option_strings[-1] for o in action.choices[text.split()[0]]._actions if o.option_strings and o.required
+        }
+        assert needed <= shown, f"{text}: needs {needed - shown}"
+        for option, value in re.findall(r"(--[a-z-]+) ([a-z]\w*)", text):
+            assert value in (options[option].choices or [value])
+    named = set(re.findall(r"(?<![\w-])--[a-z][a-z-]*", row))
+    assert named <= options.keys(), f"no such option: {named - options.keys()}"
+
+
+def test_the_table_of_the_readme_has_every_command():
+    (action,) = parser()._subparsers._group_actions
+    assert {text.split()[0] for written, _ in _of_readme() for text in written} == set(action.choices)
+
+
 def test_the_first_hour_has_at_most_fifteen_commands():
     lines = [
         line for language, _, text in _blocks("docs/first_hour.md") if language == "sh" for line in text.splitlines()

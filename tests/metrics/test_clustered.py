@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.stats import betabinom, binom
 
 from fddbench.errors import FddbenchError
-from fddbench.metrics.clustered import korn_graubard, pooled_intervals
+from fddbench.metrics.clustered import counts_by_run, korn_graubard, pooled_intervals
 from fddbench.metrics.intervals import beta_interval, clopper_pearson
 
 NINE = [9] * 25
@@ -189,3 +189,12 @@ def test_many_shares_at_once_have_the_intervals_of_each(table):
         own = korn_graubard(hits[:, j].astype(int), range(len(table)), trials=trials[:, j].astype(int))
         ends = [np.nan if end is None else end for end in (own.low, own.high)]
         np.testing.assert_allclose([low[j], high[j]], ends)
+
+
+def test_counts_by_run_give_each_place_the_interval_of_its_own_rows():
+    rng = np.random.default_rng(3)
+    place, hit, run = rng.integers(-1, 3, 80), rng.random(80) < 0.4, rng.integers(0, 9, 80) * 10
+    low, high = pooled_intervals(*counts_by_run(place, hit, run, 3))
+    for i in range(3):
+        own = korn_graubard(hit[place == i], run[place == i])
+        np.testing.assert_allclose([low[i], high[i]], [own.low, own.high])

@@ -14,7 +14,7 @@ from fddbench.errors import CampaignError
 from fddbench.interfaces import Choice
 from fddbench.runner.assembling import assemble
 from fddbench.runner.flight import Flyer
-from fddbench.runner.work import rows_and_events
+from fddbench.runner.rows import rows_and_events
 
 BESIDE = Path(__file__).parent / "beside"
 DETECTORS = ["sliding_mode_published", "voting_monitor", "cusum_example"]

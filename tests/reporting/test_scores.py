@@ -2,12 +2,20 @@
 
 import yaml
 
+from fddbench.metrics.alarms import summarize_alarms
+from fddbench.metrics.summary import summarize
 from fddbench.reporting.scores import scores_text
 
 
 def test_scores_are_yaml_of_counts_and_times(make_rows):
     rows = make_rows(("jam_b", "healthy"), ("sliding_mode", "voting_monitor"), 6)
-    found = yaml.safe_load(scores_text(rows, {"campaign": "demo"}, ("voting_monitor",)))
+    found = yaml.safe_load(
+        scores_text(
+            summarize(rows, in_sample=["voting_monitor"]),
+            summarize_alarms(rows, in_sample=["voting_monitor"]),
+            {"campaign": "demo"},
+        )
+    )
     assert found["provenance"]["campaign"] == "demo"
     lines = {(line["scenario"], line["detector"]): line for line in found["scores"]}
     assert lines["jam_b", "voting_monitor"] == {

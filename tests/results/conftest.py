@@ -23,7 +23,7 @@ scenarios:
 
 
 def fly(campaign, folder, **options):
-    """Run with NumPy, two flights a shard: 6 shards of rows, 3 of events."""
+    """Run with NumPy, two flights a shard: 6 shards of rows, 6 of events."""
     return run_campaign(campaign, folder, **{"jobs": 1, "chunk": 2, "backend": "numpy"} | options)
 
 

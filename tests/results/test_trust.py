@@ -1,16 +1,21 @@
 """Code that lies in a folder of results runs only where it was flown, or where its user said so."""
 
+import json
 import os
 import shutil
+from hashlib import sha256
 from pathlib import Path
 
 import pytest
 
 import fddbench
 from fddbench import plugin_files, private
+from fddbench.campaign.plan import plan
 from fddbench.cli import main
 from fddbench.errors import UntrustedError
 from fddbench.results import trust
+from fddbench.results.folder import claim
+from fddbench.runner.fingerprint import fingerprint_of, frozen, provenance_for
 
 PLUGIN = """
 from pathlib import Path
@@ -62,6 +67,38 @@ def test_code_from_elsewhere_is_not_run(elsewhere, capsys, command):
     assert main([command[0], str(out), *command[1:]]) in {0, 2}
     assert not mark.exists()
     assert "cusum_example.py" in capsys.readouterr().err
+
+
+def test_a_page_from_elsewhere_is_written_from_the_rows_and_says_what_it_lacks(elsewhere, capsys):
+    out, mark = elsewhere
+    assert main(["report", str(out)]) == 0
+    assert "Its page is written from the rows alone" in capsys.readouterr().err
+    page = (out / "report.html").read_text(encoding="utf-8")
+    assert not mark.exists()
+    assert "No false alarm" in page
+    assert "<svg" in page
+    place = page[page.index('id="h-signals"') :][:900]
+    assert "Not drawn" in place
+    assert "cusum_example.py" in place
+    assert "--trust" in place
+    copy = shutil.copytree(out, out.parent / "copy")
+    assert main(["report", str(out), str(copy)]) == 0
+    assert not mark.exists()
+    assert main(["report", str(out), "--trust"]) == 0
+    assert mark.exists()
+    assert "Not drawn" not in (out / "report.html").read_text(encoding="utf-8")
+
+
+def test_a_page_of_frozen_texts_that_are_no_campaign_is_refused(elsewhere, capsys):
+    out, mark = elsewhere
+    provenance, yaml = out / "provenance.json", out / "campaign.yaml"
+    told = json.loads(provenance.read_text())
+    yaml.write_text(yaml.read_text().replace("seed: 7", "seed: [7]"))
+    told["campaign_yaml_sha256"] = sha256(yaml.read_bytes()).hexdigest()
+    provenance.write_text(json.dumps(told))
+    assert main(["report", str(out)]) == 2
+    assert "campaign.yaml:3:7: expected a whole number" in capsys.readouterr().err
+    assert not mark.exists()
 
 
 def test_rows_of_somebody_elses_code_are_counted_without_it(elsewhere):
@@ -129,3 +166,39 @@ def test_a_folder_of_another_user_is_not_private(tmp_path):
     os.chown(own, 65534, 65534)
     assert "another user" in private.trouble(own)
     assert private.read(own / "a") is None
+
+
+def test_a_folder_that_looks_cut_off_does_not_run_its_plugin(elsewhere):
+    out, mark = elsewhere
+    told = json.loads((out / "provenance.json").read_text())
+    stage = {
+        "fingerprint": told["fingerprints"][0],
+        "scenarios": {"healthy": [1, 1, 1]},
+        "detectors": ["own"],
+        "points": None,
+        "campaign_yaml_sha256": told["campaign_yaml_sha256"],
+    }
+    told |= {"stages": [stage, stage | {"campaign_yaml_sha256": "0" * 64}], "campaign_yaml_sha256": "0" * 64}
+    (out / "provenance.json").write_text(json.dumps(told))
+    with pytest.raises(UntrustedError):
+        fddbench.extend(out, detectors=["voting_monitor"])
+    assert not mark.exists()
+
+
+@pytest.mark.parametrize("name", ["detectors/supplier/more.c", "detectors/supplier/more.h"])
+def test_c_that_was_put_beside_known_c_is_not_trusted(tmp_path, monkeypatch, name):
+    monkeypatch.setenv("FDDBENCH_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr(trust, "_known", set())
+    there, out = tmp_path / "there", tmp_path / "results"
+    (there / "detectors").mkdir(parents=True)
+    fddbench.export("voting_monitor", there / "detectors" / "supplier")
+    design = (fddbench.gallery.folder("detectors") / "voting_monitor.yaml").read_text()
+    (there / "detectors" / "own.yaml").write_text(design.replace("kind:", "code: supplier\nkind:", 1))
+    (there / "brought.yaml").write_text(CAMPAIGN)
+    campaign = fddbench.read(there / "brought.yaml")
+    out.mkdir()
+    claim(out, files=campaign.files(), provenance=provenance_for(plan(campaign), fingerprint_of(campaign)), fresh=True)
+    assert frozen(out).designs[0].files.keys() == campaign.designs[0].files.keys()
+    (out / name).write_text("/* whoever compiles this runs it */")
+    with pytest.raises(UntrustedError, match="supplier"):
+        frozen(out)

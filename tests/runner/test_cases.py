@@ -13,7 +13,7 @@ from fddbench.campaign.load import read_campaign
 from fddbench.errors import CampaignError, FddbenchError
 from fddbench.runner.assembling import assemble
 from fddbench.runner.flight import Flyer
-from fddbench.runner.work import rows_and_events
+from fddbench.runner.rows import rows_and_events
 
 SWEPT = {
     "kind": "oscillatory", "sites": ["r1"], "onset_s": {"uniform": [0.2, 0.6]}, "amplitude_percent": {"grid": [1, 30]},

@@ -17,7 +17,7 @@ from fddbench.runner.assembling import assemble
 from fddbench.runner.eager import fly_eagerly
 from fddbench.runner.flight import Flyer
 from fddbench.runner.fused import Fused
-from fddbench.runner.work import rows_and_events
+from fddbench.runner.rows import rows_and_events
 
 needs_llvm = pytest.mark.skipif(not llvm.available(), reason="llvmlite is not installed")
 _FILES = {path: yaml.safe_load(path.read_text(encoding="utf-8")) for path in gallery.folder("campaigns").glob("*.yaml")}

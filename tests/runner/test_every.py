@@ -15,7 +15,7 @@ from fddbench.interfaces import NEVER
 from fddbench.runner.assembling import assemble
 from fddbench.runner.flight import Flyer
 from fddbench.runner.load import detector_load, in_words
-from fddbench.runner.work import rows_and_events
+from fddbench.runner.rows import rows_and_events
 
 TEXT = """\
 name: slow

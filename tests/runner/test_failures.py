@@ -11,7 +11,7 @@ from fddbench.campaign.load import read_campaign
 from fddbench.designs.adapted import Adapted
 from fddbench.runner.assembling import assemble
 from fddbench.runner.flight import Flyer
-from fddbench.runner.work import rows_and_events
+from fddbench.runner.rows import rows_and_events
 
 
 class Faulty:

@@ -167,6 +167,20 @@ def test_cut_off_between_its_two_files_it_goes_on(flown, tmp_path):
     _same(out, _fly(tmp_path, "whole", ["runs"]))
 
 
+def test_cut_off_it_does_not_grow_into_another_campaign(flown, tmp_path):
+    out = shutil.copytree(flown, tmp_path / "out")
+    old = (out / "campaign.yaml").read_bytes()
+    fddbench.extend(out, _written(tmp_path / "one.yaml", ["grid"]), jobs=1, backend="numpy")
+    (out / "campaign.yaml").write_bytes(old)
+    provenance = (out / "provenance.json").read_bytes()
+    other = yaml.safe_load(yaml.safe_dump(BASE))
+    other["dispersions"]["grid"]["v_cas_kt"] = [220, 280, 300]  # where the rows that are there have their old points
+    (tmp_path / "other.yaml").write_text(yaml.safe_dump(other))
+    with pytest.raises(ResultsError, match="ask for the one that was begun first"):
+        fddbench.extend(out, tmp_path / "other.yaml", jobs=1, backend="numpy")
+    assert (out / "provenance.json").read_bytes() == provenance
+
+
 def test_a_latin_hypercube_cannot_have_more_runs(tmp_path):
     content = yaml.safe_load(yaml.safe_dump(BASE))
     content["dispersions"]["monte_carlo"]["sampling"] = "lhs"

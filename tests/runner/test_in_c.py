@@ -1,7 +1,10 @@
 """Detectors in the loop as compiled C: the same rows, and code that was not written here in a process of its own."""
 
 import json
+import os
 import re
+import subprocess
+import sys
 
 import numpy as np
 import pyarrow as pa
@@ -14,18 +17,33 @@ from fddbench import gallery
 from fddbench.campaign.load import read_campaign
 from fddbench.errors import CampaignError, FddbenchError
 from fddbench.exported.child import Child, main_text
+from fddbench.exported.code import sources
 from fddbench.exported.compiling import built, compiler
 from fddbench.exported.flown_c import FlownC
 from fddbench.exported.interface import interface_of
+from fddbench.exported.upset import flown_with_upsets
 from fddbench.runner.assembling import assemble
+from fddbench.runner.vectors import flown_samples
 
 FAST = ["dispersions.monte_carlo.runs=1", "duration_s=11.0"]
 
 
 def rows_of(folder):
     """All rows, flights in order."""
-    rows = pa.concat_tables([pq.read_table(path) for path in sorted((folder / "rows").glob("*.parquet"))])
-    keys = [(name, "ascending") for name in ("scenario", "point", "level", "run", "detector")]
+    return table_of(folder, "rows", ("scenario", "point", "level", "run", "detector"))
+
+
+def events_of(folder):
+    """All faults, flights in order."""
+    return table_of(folder, "events", ("scenario", "point", "level", "run", "detector", "fault"))
+
+
+def table_of(folder, part, names):
+    shards = [pq.read_table(path) for path in sorted((folder / part).glob("*.parquet"))]
+    if not shards:  # nobody writes events where no flight has several faults
+        return pa.table({})
+    rows = pa.concat_tables(shards)
+    keys = [(name, "ascending") for name in names]
     return rows.sort_by(keys).replace_schema_metadata(None).combine_chunks()
 
 
@@ -38,64 +56,109 @@ def shipped(name):
     return gallery.folder("campaigns") / f"{name}.yaml"
 
 
+SHORT = {
+    "yaw_rate_table8": ["dispersions.monte_carlo.runs=1", "requirements=[]"],
+    "jet_engine_monte_carlo": ["dispersions.monte_carlo.runs=1", "requirements=[]"],
+    "b747_monte_carlo": ["dispersions.monte_carlo.runs=1"],
+}
+"""All detectors and scenarios of the long campaigns, one run of each."""
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("campaign", "overrides"),
-    [
-        ("smoke", []),
-        ("yaw_rate_table8", ["dispersions.monte_carlo.runs=1", "detectors=[sliding_mode_published]"]),
-        ("jet_engine_monte_carlo", ["dispersions.monte_carlo.runs=1", "detectors=[hinf_start]"]),
-        ("b747_monte_carlo", ["dispersions.monte_carlo.runs=1", "detectors=[lpv_filter_envelope]"]),
-    ],
-)
-def test_rows_are_equal_bit_for_bit(campaign, overrides, tmp_path):
-    path = shipped(campaign)
-    own = read_campaign(path, overrides[:1] if overrides else [])
-    entries = [
-        f"scenarios.{n}.runs={overrides[0].split('=')[1]}"
-        for n, s in enumerate(own.scenarios)
-        if overrides and s.entry.runs
-    ]
-    wanted = flown(tmp_path / "engine", path, *overrides, *entries)
-    found = flown(tmp_path / "c", path, *overrides, *entries, compiled_as="c")
+@pytest.mark.parametrize("campaign", ["smoke", *SHORT])
+def test_rows_are_equal_bit_for_bit(campaign, tmp_path):
+    """Smoke is flown whole, of the others one run of each scenario."""
+    path, overrides = shipped(campaign), list(SHORT.get(campaign, []))
+    if overrides:
+        scenarios = read_campaign(path, overrides).scenarios
+        overrides += [f"scenarios.{n}.runs=1" for n, each in enumerate(scenarios) if each.entry.runs]
+    wanted = flown(tmp_path / "engine", path, *overrides)
+    found = flown(tmp_path / "c", path, *overrides, compiled_as="c")
     assert found.equals(wanted)
+    assert events_of(tmp_path / "c").equals(events_of(tmp_path / "engine"))
     said = json.loads((tmp_path / "c" / "provenance.json").read_text())["flown_as_c"]
+    assert set(said) == set(wanted["detector"].to_pylist())
     assert all("-ffp-contract=off" in each for each in said.values())
 
 
+SANITIZERS = "-g -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all"
+
+
 @pytest.mark.slow
-def test_sanitizers_find_nothing_over_the_smoke_campaign(tmp_path, monkeypatch):
-    sanitizers = "-g -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all"
-    wanted = flown(tmp_path / "engine", shipped("smoke"), *FAST)
-    monkeypatch.setenv("CFLAGS", sanitizers)
+@pytest.mark.parametrize(
+    ("command", "flags"),
+    [
+        ("gcc", "-O0"),
+        ("gcc", "-O3 -march=native"),
+        ("clang", "-O0"),
+        ("clang", "-O3 -march=native"),
+        ("gcc", SANITIZERS),
+    ],
+)
+def test_the_whole_smoke_campaign_has_equal_rows_with_every_compiler(command, flags, tmp_path, monkeypatch):
+    """Address and undefined-behaviour sanitizers end the code where they find something, so its rows would be errors."""
+    wanted = flown(tmp_path / "engine", shipped("smoke"))
+    monkeypatch.setenv("CC", command)
+    monkeypatch.setenv("CFLAGS", flags)
     compiler.cache_clear()
     try:
-        assert flown(tmp_path / "c", shipped("smoke"), *FAST, compiled_as="c").equals(wanted)
+        assert flown(tmp_path / "c", shipped("smoke"), compiled_as="c").equals(wanted)
     finally:
         compiler.cache_clear()
+    said = json.loads((tmp_path / "c" / "provenance.json").read_text())["flown_as_c"]
+    assert len(said) == 2
+    assert all(flags in each for each in said.values())
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf, 1e308])
-def test_inputs_that_are_no_numbers_do_what_the_header_says(bad):
-    """Nothing breaks but the numbers; the engine makes the same bits, and init begins anew."""
-    assembly = assemble(read_campaign(shipped("smoke")))
-    own, bus = assembly.detectors["sliding_mode_published"], assembly.loop.bus
-    interface = interface_of(own, bus, name="sliding_mode_published")
-    from fddbench.exported.code import sources
+def test_sanitizers_end_the_code_that_leaves_an_array(tmp_path, monkeypatch):
+    monkeypatch.setenv("CFLAGS", SANITIZERS)
+    compiler.cache_clear()
+    beyond = "    if (in->r_deg_s[0U] > 5.0) { x->held_samples = in->r_deg_s[(uint32_t)in->r_deg_s[0U]]; }\n"
+    call = "    voting_monitor(in, x, &s);"
+    try:
+        campaign = own_files(tmp_path, lambda text: text.replace(call, beyond + call))
+        rows = flown(tmp_path / "results", campaign, *FAST).to_pandas()
+    finally:
+        compiler.cache_clear()
+    assert set(rows[rows.status == "error"].detector) == {"supplied"}
+    assert rows[rows.status == "error"].reason.str.contains("the code ended its process with 1").all()
 
+
+@pytest.mark.slow
+@pytest.mark.parametrize("design", ["voting_monitor", "sliding_mode_published"])
+def test_inputs_that_are_no_numbers_do_what_the_header_says(design):
+    """The C of a flight with one bad sample has the bits of the interpreter, and the effect that the header tells."""
+    assembly = assemble(read_campaign(shipped("smoke")))
+    own, bus = assembly.detectors[design], assembly.loop.bus
+    interface = interface_of(own, bus, name=design)
+    signals = flown_samples(assembly, own.every, 400)
+    vectors, upsets = flown_with_upsets(interface, signals)
     files = sources(interface, own.detector) | {"flown.c": main_text(interface.name)}
     sanitized = compiler("", ("-fsanitize=undefined,float-cast-overflow", "-fno-sanitize-recover=all"))
     code = FlownC(interface, Child(built(files, sanitized)))
-    calm = {m.source: np.ones((m.size, 1)) for m in interface.inputs}
-    state, begun = code.start[:, np.newaxis], code.start.copy()
-    for number, signal in enumerate(calm):
-        upset = calm | {signal: np.full_like(calm[signal], bad)}
-        after, _ = code.step(state, upset)
-        for _ in range(3):
-            after, given = code.step(after, calm)
-        assert all(len(rows) for rows in given.values()), number
-    assert np.array_equal(FlownC(interface, Child(built(files, sanitized))).start, begun)
+    width, at = len(upsets) + 1, len(vectors) // 2
+    state, given = np.repeat(code.start[:, np.newaxis], width, axis=1), []
+    for k in range(len(vectors)):
+        seen = {m.source: np.repeat(signals[m.source][k][:, np.newaxis], width, axis=1) for m in interface.inputs}
+        for column, each in enumerate(upsets, start=1):
+            if k == at:
+                seen[each.signal][:, column] = {"not-a-number": np.nan, "infinity": np.inf, "1e308": 1e308}[each.kind]
+        state, out = code.step(state, seen)
+        given.append(np.concatenate([out[m.source] for m in interface.outputs]))
+    code.child.close()
+    outputs = np.array(given)
+    assert np.array_equal(outputs[:, :, 0], vectors.outputs)
+    assert len(upsets) == 3 * len(interface.inputs)
+    for column, each in enumerate(upsets, start=1):
+        finite = bool(np.isfinite(state[:, column]).all())
+        apart = np.flatnonzero((outputs[:, :, column] != vectors.outputs).any(axis=1))
+        assert finite == each.finite, each
+        assert not len(apart) or apart[0] >= at, each
+        if each.recovers is not None:
+            assert each.recovers == (apart[-1] + 1 - at if len(apart) else 0), each
+        else:
+            assert not finite or apart[-1] == len(vectors) - 1, each
 
 
 def own_files(folder, source):
@@ -159,6 +222,32 @@ def test_a_flag_that_changes_bits_is_refused():
         compiler("true", ("-ffast-math",))
     with pytest.raises(FddbenchError, match="-ffp-contract=fast would change the bits"):
         compiler("true", ("-ffp-contract=fast",))
+
+
+@pytest.mark.parametrize("flag", ["-m32", "-mfpmath=387", "-fsingle-precision-constant", "-mdaz-ftz", "-Ofast"])
+def test_a_flag_beside_the_compiler_is_refused_too(flag):
+    with pytest.raises(FddbenchError, match=f"{flag} would change the bits of a flight"):
+        compiler(f"true {flag}")
+
+
+def test_a_folder_without_a_cache_is_gone_when_the_process_ends(tmp_path):
+    code = (
+        "from fddbench import private\n"
+        "from fddbench.exported.compiling import _place\n"
+        "def none(): raise OSError\n"
+        "private.folder = none\n"
+        "assert _place() == _place() and _place().is_dir()\n"
+        "print(_place())\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        env=os.environ | {"TMPDIR": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stdout.startswith(str(tmp_path))
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_compiler_that_is_missing_is_named():

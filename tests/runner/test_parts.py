@@ -83,7 +83,9 @@ def test_a_wrong_part_writes_nothing(campaign, tmp_path, capsys):
     assert not (tmp_path / "out").exists()
 
 
-def test_what_failed_is_flown_again_when_asked(tmp_path):
+@pytest.fixture
+def fragile(tmp_path):
+    """A campaign one of whose detectors fails while the machine is full."""
     (tmp_path / "detectors").mkdir()
     (tmp_path / "detectors" / "fragile.py").write_text(HEAD + FRAGILE.replace("FULL", str(tmp_path / "full")))
     (tmp_path / "detectors" / "fragile.yaml").write_text(
@@ -91,6 +93,11 @@ def test_what_failed_is_flown_again_when_asked(tmp_path):
     )
     path = tmp_path / "fragile.yaml"
     path.write_text(CAMPAIGN.replace("sliding_mode_published", "fragile"))
+    return path
+
+
+def test_what_failed_is_flown_again_when_asked(fragile, tmp_path):
+    path = fragile
     clean = fddbench.run(path, tmp_path / "clean", jobs=1)
     assert not clean.failed_rows
     (tmp_path / "full").write_text("the machine has no room")
@@ -104,3 +111,26 @@ def test_what_failed_is_flown_again_when_asked(tmp_path):
     listed = shards(tmp_path / "out")
     assert fddbench.run(path, tmp_path / "out", jobs=1, retry_failed=True).flights == 0
     assert shards(tmp_path / "out") == listed
+
+
+def test_what_failed_elsewhere_stays_when_a_part_is_flown_again(fragile, tmp_path):
+    fddbench.run(fragile, tmp_path / "clean", jobs=1)
+    (tmp_path / "full").write_text("the machine has no room")
+    parts = ["scenario=healthy", "scenario=jam_a"]
+    failed = [fddbench.run(fragile, tmp_path / "out", only=part, jobs=1).failed_rows for part in parts]
+    assert failed == [failed[0], 2 * failed[0]] != [0, 0]
+    (tmp_path / "full").unlink()
+    again = fddbench.run(fragile, tmp_path / "out", only=parts[0], jobs=1, retry_failed=True)
+    assert (again.flights, again.total, again.failed_rows) == (4, 4, failed[0])
+    assert not holdings(tmp_path / "out").partial
+    fddbench.run(fragile, tmp_path / "out", jobs=1, retry_failed=True)
+    assert fddbench.load(tmp_path / "out").equals(fddbench.load(tmp_path / "clean"))
+
+
+def test_a_shard_of_which_a_part_is_flown_again_is_flown_again_whole(fragile, tmp_path):
+    (tmp_path / "full").write_text("the machine has no room")
+    first = fddbench.run(fragile, tmp_path / "out", only="scenario=healthy", jobs=1)
+    (tmp_path / "full").unlink()
+    assert len(shards(tmp_path / "out")) == 1
+    again = fddbench.run(fragile, tmp_path / "out", only="scenario=healthy,run=0", jobs=1, retry_failed=True)
+    assert (first.failed_rows > 0, again.flights, again.total, again.failed_rows) == (True, 4, 4, 0)

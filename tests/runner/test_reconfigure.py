@@ -21,8 +21,8 @@ from fddbench.runner.assembling import assemble
 from fddbench.runner.flight import Flyer
 from fddbench.runner.rehearsal import rehearsed
 from fddbench.runner.replay import replay_campaign
+from fddbench.runner.rows import rows_and_events
 from fddbench.runner.run import run_campaign
-from fddbench.runner.work import rows_and_events
 
 BESIDE = Path(__file__).parent.parent / "probes" / "beside"
 BIAS = {"kind": "bias", "sites": ["first"], "onset_s": 1.0, "amplitude_deg": 3.0}

@@ -45,7 +45,7 @@ def test_foreign_files_are_never_touched(everything, tmp_path):
     assert {path.name for path in folder.iterdir()} <= {"thesis.tex", ".lock", ".pid"}
 
 
-@pytest.mark.parametrize("damage", ["truncated", "emptied", "flipped", "gone", "half a line"])
+@pytest.mark.parametrize("damage", ["truncated", "emptied", "flipped", "text", "foreign", "gone", "half a line"])
 def test_a_damaged_folder_is_mended_to_the_same_rows(everything, tmp_path, damage):
     folder = tmp_path / "out"
     run_campaign(everything, folder, jobs=1, chunk=5)
@@ -60,7 +60,15 @@ def test_a_damaged_folder_is_mended_to_the_same_rows(everything, tmp_path, damag
         path.unlink()
     else:
         data[len(data) // 2] ^= 1
-        path.write_bytes({"truncated": data[:-10], "emptied": b"", "flipped": bytes(data)}[damage])
+        foreign = (folder / manifest.shards(folder)[1].rows).read_bytes()
+        damaged = {
+            "truncated": data[:-10],
+            "emptied": b"",
+            "flipped": bytes(data),
+            "text": b"no table\n",
+            "foreign": foreign,
+        }
+        path.write_bytes(damaged[damage])
     if damage == "half a line":
         with pytest.warns(PartialResultsWarning):
             load(folder)

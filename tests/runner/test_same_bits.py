@@ -13,8 +13,8 @@ from fddbench.campaign.load import read_campaign
 from fddbench.results.table import load_events
 from fddbench.runner.assembling import assemble
 from fddbench.runner.flight import Flyer
+from fddbench.runner.rows import rows_and_events
 from fddbench.runner.run import run_campaign
-from fddbench.runner.work import rows_and_events
 
 
 def bits(frame: pd.DataFrame) -> str:
@@ -43,6 +43,7 @@ def reference(everything, tmp_path_factory):
         {"jobs": 1, "chunk": 1},
         {"jobs": 2, "chunk": 7},
         {"jobs": 1, "chunk": 64},
+        {"jobs": 2, "chunk": 1000},
         {"jobs": 1, "backend": "numpy"},
         {"jobs": 2, "backend": "numpy", "chunk": 9},
     ],

@@ -6,6 +6,7 @@ import yaml
 
 import fddbench
 from fddbench import gallery, load, operating_curve
+from fddbench.api.tables import overview
 from fddbench.blocks.accounting import cost
 from fddbench.blocks.merge import merged
 from fddbench.campaign.load import read_campaign
@@ -85,7 +86,7 @@ def test_goes_on_where_it_stopped(folders):
     assert frozen.sha256 == campaign.sha256
     names = [design.name for design in campaign.designs]
     assert list(provenance_of(folders / "swept")["designs_sha256"]) == names
-    scores = scores_text(load(folders / "swept"), provenance_of(folders / "swept"), (), None)
+    scores = scores_text(*overview(folders / "swept"), provenance_of(folders / "swept"))
     assert all(name in scores for name in names)
 
 

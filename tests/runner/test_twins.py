@@ -19,8 +19,8 @@ from fddbench.runner.assembling import assemble
 from fddbench.runner.beside import beside
 from fddbench.runner.chunks import cut
 from fddbench.runner.flight import Flyer
+from fddbench.runner.rows import rows_and_events
 from fddbench.runner.twins import Kept, Pairs
-from fddbench.runner.work import rows_and_events
 
 ALL = Consequences(
     [

@@ -6,7 +6,6 @@ from pathlib import Path
 import pandas as pd
 
 from fddbench.api.tables import leave_summary
-from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.plan import Plan
 from fddbench.campaign.plan import plan as planned
@@ -14,6 +13,7 @@ from fddbench.campaign.selection import selected
 from fddbench.errors import FddbenchError
 from fddbench.runner.engines import Engine
 from fddbench.runner.run import Progress, RunReport, run_campaign
+from fddbench.runner.supervised.trial import read_safely
 
 __all__ = ["plan", "read", "run"]
 
@@ -31,14 +31,14 @@ def read(path: str | Path, overrides: Sequence[str] = ()) -> Campaign:
     Raises
     ------
     fddbench.errors.CampaignError
-        Every mistake in it, with its place.
+        Every mistake in it, with its place; a plug-in that ends, hangs or exhausts the process that imports or makes it.
 
     Examples
     --------
     >>> read("smoke", ["detectors=[voting_monitor]"]).name
     'smoke'
     """
-    return read_campaign(Path(path), overrides)
+    return read_safely(Path(path), overrides)
 
 
 def plan(campaign: Campaign | str | Path) -> Plan:

@@ -6,8 +6,8 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from fddbench.api.campaigns import read
 from fddbench.campaign.check import describe, duration, estimated_seconds
-from fddbench.campaign.load import read_campaign
 from fddbench.designs.adapted import Adapted
 from fddbench.runner.assembling import assemble
 from fddbench.runner.chunks import CHUNK, COMPILED_CHUNK, OPAQUE_CHUNK
@@ -31,7 +31,7 @@ def described(path: str | Path, overrides: Sequence[str] = ()) -> str:
     CampaignError
         Every mistake in the campaign and its designs.
     """
-    assembly = assemble(read_campaign(Path(path), overrides))
+    assembly = assemble(read(path, overrides))
     plan, compiled = assembly.plan, Flyer(assembly).compiled
     each_s, together_s = (_COMPILED_S, 0.0) if compiled else (_NUMPY_S, _NUMPY_CALL_S)
     opaque = {name: own for name, own in assembly.detectors.items() if own.opaque}
@@ -39,7 +39,8 @@ def described(path: str | Path, overrides: Sequence[str] = ()) -> str:
     chunk = min(
         OPAQUE_CHUNK if alone else COMPILED_CHUNK if compiled else CHUNK, max(s.n_cases for s in plan.scenarios)
     )
-    notes = []
+    large = getattr(assembly.loop, "in_python", "")
+    notes = [f"All fly in Python: {large}"] if large else []
     for name, own in opaque.items():
         seconds = _timed(own, first_samples(assembly, _TIMED, 3 if own.one_by_one else chunk))
         if own.one_by_one:

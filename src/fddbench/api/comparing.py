@@ -40,7 +40,7 @@ COMPARISON = pa.schema(
         column("high", pa.float64(), "upper end"),
         column("p_value", pa.float64(), "exact sign test by run, two-sided; with one flight a run McNemar's"),
         column("p_holm", pa.float64(), "the same, adjusted for all lines of the table"),
-        column("verdict", pa.string(), "better, worse, or null where chance explains it (p_holm 0.05 or more)"),
+        column("verdict", pa.string(), "better, worse, or null where chance may explain it (p_holm 0.05 or more)"),
     ]
 )
 
@@ -69,7 +69,7 @@ def compare(
         No folders of results, no such detector, or no flight that both hold: the same scenario, run, parameters and faults.
     """
     own = b is None
-    first, second = load(a), load(a if b is None else b)
+    first, second = load(a, fair=True), load(a if b is None else b, fair=True)
     seeds = [provenance_of(Path(folder))["seed"] for folder in (a, a if b is None else b)]
     if seeds[0] != seeds[1]:
         raise FddbenchError(

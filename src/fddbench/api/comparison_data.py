@@ -3,14 +3,19 @@
 from collections.abc import Sequence
 from pathlib import Path
 
+from fddbench.api.as_written import campaign_as_written, in_sample_as_written, voted_as_written
 from fddbench.api.comparing import compare
-from fddbench.errors import FddbenchError
+from fddbench.api.findings import voted_only
+from fddbench.campaign.meaning import Campaign
+from fddbench.campaign.rules.model import CampaignFile
+from fddbench.errors import FddbenchError, UntrustedError
 from fddbench.metrics.alarms import summarize_alarms
 from fddbench.reporting.page.answer import answer
 from fddbench.reporting.page.columns import NEEDS, Columns
 from fddbench.reporting.page.comparison import ComparedFolder, Comparison
-from fddbench.reporting.page.ranking import beside_best, ranking
+from fddbench.reporting.page.ranking import ranking, second_beside_best
 from fddbench.reporting.page.ranks import rank_lines
+from fddbench.results.kept import kept_of
 from fddbench.results.table import read_rows
 from fddbench.results.whole import holdings
 from fddbench.runner.fingerprint import frozen
@@ -37,13 +42,21 @@ def comparison_data(folders: Sequence[Path]) -> Comparison:
 
 
 def _folder(path: Path) -> ComparedFolder:
-    campaign, found = frozen(path), holdings(path)
-    rows = read_rows(path, list(NEEDS))
+    campaign, own, voted = _campaign(path)
+    found, kept, rows = holdings(path), kept_of(path), read_rows(path, list(NEEDS), fair=True)
     columns = Columns(rows)
-    ranks = ranking(columns, summarize_alarms(rows, in_sample=campaign.in_sample), in_sample=campaign.in_sample)
-    known = [line for line in ranks if line.decided]
-    second = beside_best(columns, known[0].number, known[1].number) if len(known) > 1 else None
+    short = "; ".join(filter(None, [found.sentence if found.partial else "", f"only {kept.first}" if kept else ""]))
+    ranks = ranking(columns, summarize_alarms(rows, in_sample=own), in_sample=own, voted=voted)
     return ComparedFolder(
-        folder=path.as_posix(), campaign=campaign.name, about=campaign.about, partial=found.sentence if found.partial else "",
-        answer=answer(ranks, second), ranks=rank_lines(ranks),
+        folder=path.as_posix(), campaign=campaign.name, about=campaign.about, partial=short,
+        answer=answer(ranks, second_beside_best(columns, ranks)), ranks=rank_lines(ranks),
     )  # fmt: skip
+
+
+def _campaign(path: Path) -> tuple[Campaign | CampaignFile, tuple[str, ...], tuple[str, ...]]:
+    """The campaign, detectors that were tuned on its flights, and those that see the voted signal; nobody else's code runs."""
+    try:
+        campaign = frozen(path)
+    except UntrustedError:
+        return campaign_as_written(path), in_sample_as_written(path), voted_as_written(path)
+    return campaign, campaign.in_sample, voted_only(campaign)

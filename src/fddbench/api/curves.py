@@ -50,7 +50,7 @@ def operating_curve(folder: str | Path, *, design: str | None = None, gain: str 
             )
         )
     points = [point for curve in curves for point in sorted(_points(campaign, *curve), key=_place)]
-    return operating.operating_curve(table.load(folder, ["case", *operating.NEEDS]), points)
+    return operating.operating_curve(table.load(folder, ["case", *operating.NEEDS], fair=True), points)
 
 
 def operating_of(rows: pd.DataFrame, campaign: Campaign) -> pd.DataFrame | None:

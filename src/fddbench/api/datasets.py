@@ -12,7 +12,6 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.plan import plan as planned
 from fddbench.errors import FddbenchError, ResultsError
@@ -21,6 +20,7 @@ from fddbench.results.dataset_files import SPLITS, SplitFiles, listed
 from fddbench.results.provenance import version_of
 from fddbench.runner.fingerprint import fingerprint_of
 from fddbench.runner.labelled import Labelled, Signals, labelled_flights
+from fddbench.runner.supervised.trial import read_safely
 from fddbench.units import unit_of_name
 
 __all__ = ["dataset"]
@@ -59,7 +59,7 @@ def dataset(
     FddbenchError
         The rate does not fit the clock, the campaign has too few aircraft to be split, or the folder holds something.
     """
-    own = campaign if isinstance(campaign, Campaign) else read_campaign(Path(campaign))
+    own = campaign if isinstance(campaign, Campaign) else read_safely(Path(campaign))
     if dtype not in _TYPES:
         raise FddbenchError(f"dtype = {dtype!r}; allowed: {', '.join(_TYPES)}")
     every, out = _every(own, rate_hz), Path(output)

@@ -12,7 +12,10 @@ from fddbench.api.requiring import judgements
 from fddbench.campaign.meaning import Campaign
 from fddbench.errors import FddbenchError
 from fddbench.metrics.requirements import Judgement
-from fddbench.runner.fingerprint import frozen
+from fddbench.results.fingerprint import Fingerprint
+from fddbench.results.folder import changed_files, provenance_of
+from fddbench.results.stages import stages_in
+from fddbench.runner.fingerprint import frozen, frozen_before
 from fddbench.runner.growing import grow_to
 from fddbench.runner.run import RunReport
 
@@ -127,6 +130,11 @@ def _most(campaign: Campaign, at_most: int | None) -> int:
         raise FddbenchError(f"nothing to decide: {campaign.path} has no requirements; write them into it")
     if drawn is None:
         raise FddbenchError(f"{campaign.path} draws nothing (it has no monte_carlo), so it has no runs to add")
+    if campaign.keep != "all":
+        raise FddbenchError(
+            f"{campaign.path} keeps a part of its rows (keep: {campaign.keep}), and verdicts are by rows, those of the first "
+            f"{campaign.kept_runs} runs, so that more runs decide nothing. Fly it with --set keep=all"
+        )
     if at_most is not None and at_most < drawn.runs:
         raise FddbenchError(
             f"at most {at_most} runs, but the campaign itself has {drawn.runs}; allow more, or --set {_RUNS}="
@@ -138,7 +146,19 @@ def _as_far_as_flown(own: Campaign, campaign: str | Path, overrides: Sequence[st
     """The campaign with the runs of its folder of results, where an earlier run has added some."""
     if not (folder / "provenance.json").is_file():
         return own
-    there, here = frozen(folder).dispersions.monte_carlo, own.dispersions.monte_carlo
+    for runs in _runs_begun(folder):
+        begun = read(campaign, [*overrides, f"{_RUNS}={runs}"])
+        if begun.sha256 == Fingerprint.of(provenance_of(folder)).campaign_sha256:
+            return begun
+    there, here = frozen_before(folder).dispersions.monte_carlo, own.dispersions.monte_carlo
     if there is None or here is None or there.runs <= here.runs:
         return own
     return read(campaign, [*overrides, f"{_RUNS}={there.runs}"])
+
+
+def _runs_begun(folder: Path) -> list[int]:
+    """What may be the runs of a stage that was cut off before its campaign was frozen; none where nothing was cut off."""
+    stages = stages_in(provenance_of(folder))
+    if len(stages) < 2 or changed_files(folder) != ["campaign.yaml"]:
+        return []
+    return sorted({runs for _, _, runs in stages[-1].scenarios.values()}, reverse=True)

@@ -10,8 +10,8 @@ import pyarrow as pa
 from pandas.api.types import is_bool_dtype, is_numeric_dtype
 
 from fddbench.errors import FddbenchError, did_you_mean
-from fddbench.metrics.detection_curve import LEAST, detection_curve
 from fddbench.metrics.shares import column, decided, flown_of
+from fddbench.reporting.found_by_size import curve_of, sizes_among
 from fddbench.results.table import load
 
 __all__ = ["CURVES", "pod"]
@@ -55,7 +55,7 @@ def pod(folder: str | Path, size: str = "") -> pd.DataFrame:
     FddbenchError
         No folder of results, no such column, or no fault with a size that differs.
     """
-    rows = load(folder)
+    rows = load(folder, fair=True)
     sizes = [name for name in rows.columns if name[:1] == "f" and name[1:2].isdigit()]
     if size and size not in rows.columns:
         hint = did_you_mean(size, sizes)
@@ -64,7 +64,7 @@ def pod(folder: str | Path, size: str = "") -> pd.DataFrame:
         )
     if size and (not is_numeric_dtype(rows[size]) or is_bool_dtype(rows[size])):
         raise FddbenchError(f"the column {size!r} holds no numbers. Sizes: {', '.join(sizes) or 'none'}")
-    chosen = [size] if size else [name for name in sizes if not name.endswith("_s") or name.endswith(_RATES)]
+    chosen = [size] if size else sizes_among(sizes)
     flown = flown_of(rows)
     lines = [
         {"scenario": scenario, "detector": detector, "size": name, **line}
@@ -81,9 +81,6 @@ def pod(folder: str | Path, size: str = "") -> pd.DataFrame:
     return found
 
 
-_RATES = ("deg_s", "percent_s", "rad_s", "m_s", "n_s", "g_s")
-
-
 def _line(group: pd.DataFrame, name: str) -> Iterator[dict[str, Any]]:
     values = group[name].to_numpy(dtype=float, na_value=np.nan)
     if len(np.unique(values[~np.isnan(values)])) < 2:
@@ -91,30 +88,14 @@ def _line(group: pd.DataFrame, name: str) -> Iterator[dict[str, Any]]:
     sure = decided(group) & ~np.isnan(values)
     right = np.asarray(group["outcome"] == "right", dtype=bool)[sure]
     a, run = np.abs(values[sure]), group["run"].to_numpy()[sure]
+    fit, about = curve_of(a, right, run, name)
     line = {
-        "flights": int(sure.sum()), "runs": len(np.unique(run)), "right": int(right.sum()),
+        "flights": int(sure.sum()), "runs": len(np.unique(run)), "right": int(right.sum()), "about": about,
         "smallest": float(a.min()) if len(a) else None, "largest": float(a.max()) if len(a) else None,
     }  # fmt: skip
-    if len(a) < LEAST or len(np.unique(a)) < 3 or a.min() <= 0.0:
-        yield line | {"about": f"no curve: it needs {LEAST} or more decided flights of three or more sizes above 0"}
-        return
-    if right.all() or not right.any():
-        yield line | {
-            "about": "no curve: all are found, down to the smallest" if right.all() else "no curve: none is found"
-        }
-        return
-    fit = detection_curve(a, right, run)
-    yield line | {
-        "size_50": fit.size_50, "size_90": fit.size_90, "size_90_95": fit.size_90_95, "spread": fit.spread,
-        "floor_percent": 100.0 * fit.floor, "ceiling_percent": 100.0 * fit.ceiling, "design_effect": fit.design_effect,
-        "about": _about(fit.size_90, fit.size_90_95, fit.ceiling, line["largest"]),
-    }  # fmt: skip
-
-
-def _about(size: float | None, upper: float | None, ceiling: float, largest: float | None) -> str:
-    if size is None:
-        return f"90 % are never found: the curve ends at {100.0 * ceiling:.0f} %"
-    beyond = ", beyond the largest flown" if largest is not None and size > largest else ""
-    if upper is None:
-        return f"90 % found at {size:.3g}{beyond}; these flights give it no upper end at 95 % confidence"
-    return f"90 % found at {size:.3g}{beyond}, at most {upper:.3g} at 95 % confidence"
+    if fit is not None:
+        line |= {
+            "size_50": fit.size_50, "size_90": fit.size_90, "size_90_95": fit.size_90_95, "spread": fit.spread,
+            "floor_percent": 100.0 * fit.floor, "ceiling_percent": 100.0 * fit.ceiling, "design_effect": fit.design_effect,
+        }  # fmt: skip
+    yield line

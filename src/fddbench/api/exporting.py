@@ -47,14 +47,16 @@ def export(
     precision : {"double", "single"}
         Double precision gives the bits of every flight; single precision says what it loses.
     symbols : str or sequence, optional
-        Symbol library that it must keep to, see `fddbench.exported.symbols`; that of the design by default.
+        Symbol library that it must keep to, see `fddbench.exported.symbols`, beside those that its design and the campaign
+        state.
     force : bool
         Replace files that are there.
 
     Raises
     ------
     FddbenchError
-        The detector is ordinary Python or needs other symbols; the folder has such files; single precision finds no compiler.
+        The detector is ordinary Python or needs other symbols; the folder has such files; single precision finds no compiler,
+        or what it computes is no number.
     """
     if precision not in {"double", "single"}:
         raise DesignError(f"no precision is called {precision!r}; known: double, single")
@@ -73,9 +75,8 @@ def exported(
     own, bus = assembly.detectors[name], assembly.loop.bus
     design = next(each for each in assembly.plan.campaign.designs if each.name == name)
     interface = interface_of(own, bus, name=name, about=design.about)
-    wanted = symbols
-    if wanted is not None:
-        require_symbols(interface.program, library(wanted), name)
+    if symbols is not None:
+        require_symbols(interface.program, library(symbols), name)
     about = _about(design, interface, str(assembly.plan.campaign.name))
     code = code_of(interface, own.detector, flown_samples(assembly, own.every), about=about)
     return code if precision == "double" else _single(code, own.detector, about)
@@ -139,6 +140,12 @@ def _single(code: Code, detector: Any, about: Sequence[str]) -> Code:
             loss[member.source] = float(
                 apart.max(initial=0.0) / max(np.abs(double.outputs[:, rows]).max(initial=0.0), 1e-300)
             )
+    lost = [key for key, value in loss.items() if not np.isfinite(value)]
+    if lost:
+        raise DesignError(
+            f"{interface.name} in single precision makes no numbers of {', '.join(lost)} on the vectors, measured by "
+            f"{compiler()}; keep to double precision"
+        )
     said = ", ".join(f"{key} {value:.2g}" for key, value in loss.items())
     told = [
         *about[:3],

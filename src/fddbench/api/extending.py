@@ -2,25 +2,22 @@
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import pandas as pd
 import yaml
 
+from fddbench.api.aside import aside, campaign_in
 from fddbench.api.tables import leave_summary
-from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
-from fddbench.campaign.reading.canonical import canonical_text
 from fddbench.designs.design import Design, read_design
 from fddbench.designs.finding import find_design
-from fddbench.errors import CampaignError, FddbenchError, ResultsError, did_you_mean
-from fddbench.results.folder import changed_files, provenance_of
-from fddbench.results.shards import file_sha256
-from fddbench.results.stages import stages_in
-from fddbench.runner.fingerprint import frozen
+from fddbench.errors import FddbenchError, did_you_mean
+from fddbench.runner.engines import Engine
+from fddbench.runner.fingerprint import frozen, frozen_before
 from fddbench.runner.growing import grow_to
 from fddbench.runner.run import Progress, RunReport, run_campaign
+from fddbench.runner.supervised.trial import read_safely
 
 __all__ = ["extend"]
 
@@ -34,6 +31,8 @@ def extend(
     scenarios: Sequence[str] = (),
     jobs: int = 2,
     backend: str = "auto",
+    engine: str = "auto",
+    address: str | None = None,
     progress: Callable[[Progress], None] | None = None,
     notice: Callable[[str], None] | None = None,
     summarised: Callable[[pd.DataFrame, pd.DataFrame], None] | None = None,
@@ -55,7 +54,7 @@ def extend(
         More detectors: names of designs in ``detectors/`` here or shipped, or paths of design files.
     scenarios : sequence of str
         Only these scenarios of `campaign`, beside those that were flown.
-    jobs, backend, progress, notice, summarised
+    jobs, backend, engine, address, progress, notice, summarised
         See `fddbench.run`.
 
     Raises
@@ -68,26 +67,16 @@ def extend(
         raise FddbenchError("scenarios are those of a campaign: name its file too")
     if campaign is None and runs is None and not detectors:
         raise FddbenchError("nothing to extend by: give runs, detectors, or a campaign that says more")
-    old = _flown(path)
-    with TemporaryDirectory() as aside:
-        grow_to(path, old, _larger(old, campaign, runs, detectors, scenarios, Path(aside)))
-    report = run_campaign(frozen(path), path, jobs=jobs, backend=backend, progress=progress, notice=notice)
+    by = Engine(name=engine, jobs=jobs, address=address)
+    old = frozen_before(path)
+    with aside("the larger campaign") as written:
+        grow_to(path, old, _larger(old, campaign, runs, detectors, scenarios, written))
+    report = run_campaign(frozen(path), path, engine=by, backend=backend, progress=progress, notice=notice)
     if not report.interrupted:
         tables = leave_summary(path)
         if summarised is not None:
             summarised(*tables)
     return report
-
-
-def _flown(folder: Path) -> Campaign:
-    """Campaign of a folder; of one whose extension was cut off before its campaign was frozen, that of the stage before."""
-    stages = stages_in(provenance_of(folder))
-    frozen_yaml = folder / "campaign.yaml"
-    if len(stages) > 1 and changed_files(folder) == ["campaign.yaml"]:
-        if file_sha256(frozen_yaml) == stages[-2].campaign_yaml_sha256:
-            return read_campaign(frozen_yaml)
-        raise ResultsError(f"{frozen_yaml} is not the file of these results; put it back")
-    return frozen(folder)
 
 
 def _larger(
@@ -96,10 +85,10 @@ def _larger(
     runs: int | None,
     detectors: Sequence[str],
     scenarios: Sequence[str],
-    aside: Path,
+    written: Path,
 ) -> Campaign:
     """The campaign that the folder is to hold, written with everything it stands on into a folder of its own."""
-    given = None if campaign is None else read_campaign(Path(campaign))
+    given = None if campaign is None else read_safely(Path(campaign))
     base = old if given is None or scenarios else given
     content: dict[str, Any] = yaml.safe_load(base.text)
     files = base.files()
@@ -118,14 +107,7 @@ def _larger(
             content["detectors"] = [*content["detectors"], design.base]
         files[f"detectors/{design.base}.yaml"] = design.text.encode()
         files |= {f"detectors/{name}": text for name, text in design.files.items()}
-    files["campaign.yaml"] = canonical_text(content).encode()
-    for name, text in files.items():
-        (aside / name).parent.mkdir(parents=True, exist_ok=True)
-        (aside / name).write_bytes(text)
-    try:
-        return read_campaign(aside / "campaign.yaml")
-    except CampaignError as error:  # places in a file that nobody has seen
-        raise FddbenchError(str(error).replace(f"{aside}/", "the larger campaign, ")) from error
+    return campaign_in(written, content, files)
 
 
 def _scenarios(given: Campaign, wanted: Sequence[str]) -> list[dict[str, Any]]:

@@ -6,12 +6,15 @@ import pandas as pd
 
 from fddbench.api.tables import alarms, load
 from fddbench.campaign.meaning import Campaign
+from fddbench.campaign.rules.model import CampaignFile
+from fddbench.errors import ResultsError
 from fddbench.reporting.finding import finding_text
 from fddbench.results.folder import provenance_of
+from fddbench.results.kept import kept_of
 from fddbench.results.whole import require_whole
 from fddbench.runner.fingerprint import frozen
 
-__all__ = ["finding", "swept_columns"]
+__all__ = ["finding", "swept_columns", "voted_only"]
 
 
 def finding(folder: str | Path) -> str:
@@ -31,6 +34,10 @@ def finding(folder: str | Path) -> str:
     """
     path = Path(folder)
     require_whole(path)
+    if kept_of(path) is not None:
+        raise ResultsError(
+            f"{path} keeps a part of its rows, and a finding is written of all; fly it with --set keep=all into another folder"
+        )
     campaign, rows = frozen(path), load(path)
     swept = swept_columns(rows, campaign)
     provenance = provenance_of(path)
@@ -41,7 +48,7 @@ def finding(folder: str | Path) -> str:
         question=_question(campaign),
         swept=swept,
         in_sample=campaign.in_sample,
-        apart=_voted_only(campaign),
+        apart=voted_only(campaign),
         footer=(
             f"<!-- seed {campaign.seed}, campaign {campaign.sha256[:16]}, fddbench {provenance['fddbench']}; written by "
             f"`fddbench finding` -->"
@@ -49,12 +56,12 @@ def finding(folder: str | Path) -> str:
     )
 
 
-def swept_columns(rows: pd.DataFrame, campaign: Campaign) -> list[str]:
+def swept_columns(rows: pd.DataFrame, campaign: Campaign | CampaignFile) -> list[str]:
     """Columns of the rows that hold what the grid or a sweep of a fault varies, of those that differ."""
     return [str(name) for name in rows.columns if _swept(str(name), campaign) and rows[name].nunique() > 1]
 
 
-def _swept(name: str, campaign: Campaign) -> bool:
+def _swept(name: str, campaign: Campaign | CampaignFile) -> bool:
     """Whether a column holds what the grid or a sweep of a fault varies."""
     return name.removeprefix("p_") in campaign.dispersions.grid or (name[:1] == "f" and name[1:2].isdigit())
 
@@ -65,6 +72,6 @@ def _question(campaign: Campaign) -> str:
     return text[: text.rindex("?") + 1] if "?" in text else text
 
 
-def _voted_only(campaign: Campaign) -> tuple[str, ...]:
+def voted_only(campaign: Campaign) -> tuple[str, ...]:
     """Detectors whose kind says that it sees the voted signal alone."""
     return tuple(d.name for d in campaign.designs if getattr(d.kind.member, "sees", "sensors") == "voted")

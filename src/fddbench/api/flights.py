@@ -6,7 +6,6 @@ from pathlib import Path
 import pandas as pd
 
 from fddbench.campaign.addresses import Address
-from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
 from fddbench.errors import FddbenchError
 from fddbench.interfaces import Floats, Recording
@@ -15,6 +14,7 @@ from fddbench.runner.assembling import assemble
 from fddbench.runner.declared import declared_rows
 from fddbench.runner.fingerprint import frozen
 from fddbench.runner.replay import replay_campaign
+from fddbench.runner.supervised.trial import read_safely
 
 __all__ = ["campaign_of", "score", "signals"]
 
@@ -137,4 +137,4 @@ def campaign_of(source: Campaign | str | Path) -> Campaign:
     path = Path(source)
     if (path / "provenance.json").is_file():
         return frozen(path)
-    return read_campaign(path)
+    return read_safely(path)

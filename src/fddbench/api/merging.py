@@ -3,15 +3,13 @@
 from collections.abc import Sequence
 from os.path import realpath
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import yaml
 
+from fddbench.api.aside import aside, campaign_in
 from fddbench.api.tables import leave_summary
-from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
-from fddbench.campaign.reading.canonical import canonical_text
 from fddbench.errors import FddbenchError
 from fddbench.results.folder import changed_files, provenance_of
 from fddbench.results.whole import Holdings, holdings
@@ -61,13 +59,13 @@ def merge(folders: Sequence[str | Path], output: str | Path) -> Holdings:
         if key not in read or changed_files(path):
             read[key] = frozen(path)
         parts[path] = read[key]
-    with TemporaryDirectory() as aside:
-        merge_into(out, parts, _whole(list(parts.values()), Path(aside)))
+    with aside("the campaign of all") as written:
+        merge_into(out, parts, _whole(list(parts.values()), written))
     leave_summary(out)
     return holdings(out)
 
 
-def _whole(campaigns: Sequence[Campaign], aside: Path) -> Campaign:
+def _whole(campaigns: Sequence[Campaign], written: Path) -> Campaign:
     """Campaign that has what any of them has; what they contradict each other in is found by `merge_into`."""
     content: dict[str, Any] = yaml.safe_load(campaigns[0].text)
     files: dict[str, bytes] = {}
@@ -79,11 +77,7 @@ def _whole(campaigns: Sequence[Campaign], aside: Path) -> Campaign:
             content[key] = [*content[key], *(entry for entry in other[key] if _name(entry, name) not in known)]
         _widen(content.get("dispersions") or {}, other.get("dispersions") or {})
         _more_runs(content["scenarios"], other["scenarios"])
-    files["campaign.yaml"] = canonical_text(content).encode()
-    for name, text in files.items():
-        (aside / name).parent.mkdir(parents=True, exist_ok=True)
-        (aside / name).write_bytes(text)
-    return read_campaign(aside / "campaign.yaml")
+    return campaign_in(written, content, files)
 
 
 def _name(entry: Any, key: str) -> str:
@@ -91,11 +85,14 @@ def _name(entry: Any, key: str) -> str:
 
 
 def _widen(mine: dict[str, Any], other: dict[str, Any]) -> None:
-    """Grid values and runs that either has."""
+    """Grid values and runs that either has, and the longer sequence."""
     for name, values in (other.get("grid") or {}).items():
         own = (mine.get("grid") or {}).get(name)
         if own is not None:
             mine["grid"][name] = sorted({*own, *values})
+    for name, values in (other.get("sequence") or {}).items():
+        if len(values) > len((mine.get("sequence") or {}).get(name, values)):
+            mine["sequence"][name] = values
     drawn, others = mine.get("monte_carlo"), other.get("monte_carlo")
     if drawn and others:
         drawn["runs"] = max(drawn["runs"], others["runs"])

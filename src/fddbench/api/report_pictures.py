@@ -11,15 +11,16 @@ from fddbench.errors import FddbenchError, did_you_mean
 from fddbench.metrics.alarms import summarize_alarms
 from fddbench.metrics.summary import summarize
 from fddbench.reporting.labels import label
-from fddbench.reporting.page.cells import Cell, cells
-from fddbench.reporting.page.columns import Columns
+from fddbench.reporting.page.cells import Cell, cells, with_curve
+from fddbench.reporting.page.columns import FAILED, Columns
 from fddbench.reporting.page.envelope import envelope_pairs, failed_map
 from fddbench.reporting.page.matrix import matrix_scene
 from fddbench.reporting.page.operating import MEASURES, operating_scene
-from fddbench.reporting.page.payload import parted_of
+from fddbench.reporting.page.payload import fitted_of, parted_of
 from fddbench.reporting.page.ranking import ranking
 from fddbench.reporting.svg.charts import incidence_scene, parts_scene
 from fddbench.reporting.svg.picture import Picture
+from fddbench.reporting.svg.size import size_scene
 from fddbench.results.table import load
 from fddbench.runner.fingerprint import frozen
 
@@ -90,7 +91,7 @@ def failures(folder: str | Path, detector: str, scenario: str, parameter: str = 
 
 
 def size_curve(folder: str | Path, detector: str, scenario: str) -> Picture:
-    """Share found in time over the size of the fault, where a scenario varies one; `fddbench.pod` fits a curve.
+    """Share found in time over the size of the fault, where a scenario varies one, with the curve of `fddbench.pod`.
 
     Raises
     ------
@@ -99,10 +100,15 @@ def size_curve(folder: str | Path, detector: str, scenario: str) -> Picture:
     """
     columns, own = _cells(folder)
     s, d = _scenario(columns, own, scenario), _place(columns.detectors, detector, "detector")
-    size = own[s, d].size
+    size = with_curve(columns, own[s, d]).size
     if size is None:
         raise FddbenchError(f"{folder}: no size of a fault varies in {columns.scenarios[s]}")
     title = f"Share found of {detector} in {columns.scenarios[s]} over {label(size.name)}"
+    fitted = fitted_of(size)
+    if fitted is not None:
+        return Picture(
+            size_scene(parted_of(size), fitted, name=label(size.name), label=f"{title}: {size.said}", number=d)
+        )
     return Picture(parts_scene(parted_of(size), name=label(size.name), label=title, number=d, what="right [%]"))
 
 
@@ -160,10 +166,11 @@ def envelope(folder: str | Path, detector: str, x: str = "", y: str = "") -> Pic
     FddbenchError
         No folder of results, no such detector or column, or nothing to map over.
     """
-    rows = load(folder)
-    columns, campaign = Columns(rows), frozen(Path(folder))
+    rows = load(folder, fair=True)
+    columns = Columns(rows)
     d = _place(columns.detectors, detector, "detector")
     if not (x and y):
+        campaign = frozen(Path(folder))
         pairs = envelope_pairs(columns, getattr(campaign.bench, "envelope_axes", ()), swept_columns(rows, campaign))
         if not pairs:
             raise FddbenchError(f"{folder}: no two parameters of the envelope vary; name two columns, x and y")
@@ -177,7 +184,7 @@ def envelope(folder: str | Path, detector: str, x: str = "", y: str = "") -> Pic
 
 
 def _cells(folder: str | Path) -> tuple[Columns, dict[tuple[int, int], Cell]]:
-    rows = load(folder)
+    rows = load(folder, fair=True)
     columns, own = Columns(rows), in_sample(folder)
     ranks = ranking(columns, summarize_alarms(rows, in_sample=own), in_sample=own)
     best = ranks[0].number if ranks and ranks[0].decided else None
@@ -206,5 +213,5 @@ def _scenario(columns: Columns, own: dict[tuple[int, int], Cell], name: str) -> 
         raise FddbenchError("no flight with a fault was flown")
     for (s, _), cell in own.items():
         if s in failed:
-            failed[s] += sum(cell.line[key] or 0 for key in ("wrong_site", "late", "missed"))
+            failed[s] += sum(cell.line[key] or 0 for key in FAILED)
     return max(failed, key=lambda s: failed[s])

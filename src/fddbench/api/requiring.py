@@ -49,13 +49,17 @@ def requirements(folder: str | Path) -> pd.DataFrame:
     return found
 
 
-def judgements(folder: str | Path, campaign: Campaign | None = None) -> list[Judgement]:
+def judgements(
+    folder: str | Path, campaign: Campaign | None = None, rows: pd.DataFrame | None = None
+) -> list[Judgement]:
     """The same as records, in the order of the campaign; empty where it requires nothing.
 
     Parameters
     ----------
     campaign : Campaign, optional
         That of the folder, by those who have read it; what it requires may differ from what is frozen there.
+    rows : DataFrame, optional
+        Rows of the folder, by those who have read them; columns that they lack are read.
 
     Raises
     ------
@@ -70,9 +74,10 @@ def judgements(folder: str | Path, campaign: Campaign | None = None) -> list[Jud
         each.per if each.per == "scenario" else f"p_{each.per}" for each in own.requirements if each.per
     )
     names = [*dict.fromkeys((*NEEDS, *columns))]
-    there = bool(shards(Path(folder)))
-    rows = read_rows(Path(folder), names) if there else pd.DataFrame(columns=names)
-    by_detector = {str(name): part for name, part in rows.groupby("detector", sort=False)}
+    if rows is None or not set(names) <= set(rows.columns):
+        there = bool(shards(Path(folder)))
+        rows = read_rows(Path(folder), names, fair=True) if there else pd.DataFrame(columns=names)
+    by_detector = {str(name): part for name, part in rows[names].groupby("detector", sort=False)}
     return [one for entry in own.requirements for one in _of_entry(entry, own, case_table, by_detector)]
 
 
@@ -140,17 +145,17 @@ def _of_entry(
         scenarios=chosen(entry.scenarios, [one.name for one in known]),
         confidence=entry.confidence,
     )
-    flights = {one.name: _planned(one) for one in known}
+    flights = {one.name: _planned(one, campaign) for one in known}
     by = "" if entry.per is None else "scenario" if entry.per == "scenario" else f"p_{entry.per}"
     for detector in chosen(entry.detectors, [design.name for design in campaign.designs]):
         own = rows.get(detector, pd.DataFrame(columns=[*NEEDS, *([by] if by else [])]))
         yield from judged(required, own, flights, detector=detector, by=by, in_sample=detector in campaign.in_sample)
 
 
-def _planned(scenario: PlannedScenario) -> PlannedFlights:
+def _planned(scenario: PlannedScenario, campaign: Campaign) -> PlannedFlights:
+    """Flights that are judged: where a campaign does not keep all rows, those of the runs that it keeps whole."""
     until_s = max(scenario.durations_s)
     if scenario.latest_onset_s is not None:
         until_s = min(until_s, scenario.latest_onset_s)
-    return PlannedFlights(
-        points=scenario.n_points, levels=scenario.n_levels, runs=scenario.n_runs, healthy_h=until_s / 3600.0
-    )
+    runs = scenario.n_runs if campaign.keep == "all" else min(scenario.n_runs, campaign.kept_runs)
+    return PlannedFlights(points=scenario.n_points, levels=scenario.n_levels, runs=runs, healthy_h=until_s / 3600.0)

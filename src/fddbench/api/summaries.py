@@ -11,12 +11,13 @@ import pandas as pd
 import pyarrow as pa
 from pyarrow import parquet
 
-from fddbench.api.tables import in_sample
+from fddbench.api.tables import in_sample, overview
 from fddbench.errors import FddbenchError, did_you_mean
 from fddbench.metrics.summary import NEEDS, summarize
 from fddbench.reporting.formats import present
 from fddbench.reporting.paper import paper_table, to_html, to_latex, to_markdown
 from fddbench.results import table
+from fddbench.results.kept import kept_of
 
 __all__ = ["FORMATS", "summary", "written"]
 
@@ -54,8 +55,11 @@ def summary(folder: str | Path, by: str | Sequence[str] = (), *, bins: int = _BI
         raise FddbenchError(f"bins = {bins}: at least 2 parts")
     own = in_sample(folder)
     if not columns:
+        if kept_of(Path(folder)) is not None:
+            table.warn_if_partial(Path(folder), counted=True)
+            return overview(Path(folder))[0]
         return summarize(table.load(folder, ["case", *NEEDS]), in_sample=own)
-    rows = table.load(folder)
+    rows = table.load(folder, fair=True)
     for name in columns:
         if name not in rows.columns:
             raise FddbenchError(

@@ -8,8 +8,8 @@ import numpy as np
 import pandas as pd
 import pyarrow as pa
 
+from fddbench.api.as_written import in_sample_as_written
 from fddbench.api.detectability import detectable_of
-from fddbench.campaign.reading.yaml_nodes import read_yaml
 from fddbench.errors import FddbenchError, UntrustedError
 from fddbench.metrics.alarms import ALARMS, summarize_alarms
 from fddbench.metrics.bound import BOUNDS
@@ -17,12 +17,16 @@ from fddbench.metrics.detectable import DETECTABLE
 from fddbench.metrics.operating import OPERATING
 from fddbench.metrics.requirements import JUDGEMENTS
 from fddbench.metrics.summary import NEEDS, SUMMARY, summarize
+from fddbench.metrics.tallied import summarize_tallies, tallied_alarms
 from fddbench.results import table
+from fddbench.results.counted import read_tallies
 from fddbench.results.filters import Condition
 from fddbench.results.fingerprint import Fingerprint
 from fddbench.results.folder import provenance_of
+from fddbench.results.kept import kept_of
 from fddbench.results.schema import CASE, EVENTS, rows_schema
 from fddbench.results.shards import write_table
+from fddbench.results.tallies import TALLIES
 from fddbench.runner.fingerprint import frozen
 
 __all__ = ["alarms", "columns", "detectable", "in_sample", "leave_summary", "load", "load_events", "overview"]
@@ -49,11 +53,15 @@ def load_events(folder: str | Path) -> pd.DataFrame:
 
 def alarms(folder: str | Path) -> pd.DataFrame:
     """One line per detector: false alarms of its distinct flights; columns of `fddbench.metrics.alarms.ALARMS`."""
+    path = Path(folder)
+    if kept_of(path) is not None:
+        table.warn_if_partial(path, counted=True)
+        return tallied_alarms(read_tallies(path), in_sample=in_sample(folder))
     return summarize_alarms(table.load(folder, ["case", *NEEDS]), in_sample=in_sample(folder))
 
 
 def overview(folder: Path) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """What `summary` and `alarms` give, for those who say themselves whether the folder is whole.
+    """What `summary` and `alarms` give of all rows, kept or not, for those who say themselves whether the folder is whole.
 
     Of a large campaign the rows of one detector at a time are in memory.
 
@@ -63,6 +71,9 @@ def overview(folder: Path) -> tuple[pd.DataFrame, pd.DataFrame]:
         As `load`.
     """
     own = in_sample(folder)
+    if kept_of(folder) is not None:
+        tallies = read_tallies(folder)
+        return summarize_tallies(tallies, in_sample=own), tallied_alarms(tallies, in_sample=own)
     # map lets go of one part before it asks for the next
     parts = list(map(partial(_summarized, own), table.read_in_parts(folder, NEEDS)))
     lines, of_alarms = (pd.concat(each, ignore_index=True) for each in zip(*parts, strict=True))
@@ -92,7 +103,7 @@ def detectable(folder: str | Path) -> pd.DataFrame:
 
     The columns are those of `fddbench.metrics.detectable.DETECTABLE`.
     """
-    return detectable_of(table.load(folder), frozen(Path(folder)))
+    return detectable_of(table.load(folder, fair=True), frozen(Path(folder)))
 
 
 def in_sample(folder: str | Path) -> tuple[str, ...]:
@@ -100,18 +111,7 @@ def in_sample(folder: str | Path) -> tuple[str, ...]:
     try:
         return frozen(Path(folder)).in_sample
     except UntrustedError:
-        return _written_in_sample(Path(folder))
-
-
-def _written_in_sample(folder: Path) -> tuple[str, ...]:
-    """What `in_sample` says, from the frozen texts alone."""
-    found = provenance_of(folder)
-    own, tuned = (found["campaign"], found["seed"]), list[str]()
-    for path in sorted(name for name in found["files"] if name.startswith("detectors/") and name.endswith(".yaml")):
-        seen = (read_yaml(folder / path).data or {}).get("tuned_on") or ()
-        if any((entry.get("campaign"), entry.get("seed")) == own for entry in seen):
-            tuned.append(Path(path).stem)
-    return tuple(name for name in found["designs_sha256"] if name.split(".")[0] in tuned)
+        return in_sample_as_written(Path(folder))
 
 
 def columns(table: str = "rows") -> dict[str, str]:
@@ -119,7 +119,7 @@ def columns(table: str = "rows") -> dict[str, str]:
 
     Parameters
     ----------
-    table : {"rows", "events", "summary", "alarms", "detectable", "bounds", "operating", "requirements"}
+    table : {"rows", "events", "tallies", "summary", "alarms", "detectable", "bounds", "operating", "requirements"}
         As `load`, `load_events`, `summary`, `alarms`, `detectable`, `bounds`, `operating_curve` and `requirements` give
         them. Rows have besides a column ``p_<name>`` a parameter, ``f1_<key>`` what is drawn or swept of the first fault, and
         ``gain_<key>`` or ``factor_<key>`` what is swept of detectors.
@@ -130,6 +130,7 @@ def columns(table: str = "rows") -> dict[str, str]:
     'from the onset to the first alarm raised since [s]; null: none'
     """
     known = {"rows": [CASE, *rows_schema(())], "events": [CASE, *EVENTS], "summary": SUMMARY, "alarms": ALARMS}
+    known |= {"tallies": TALLIES}
     known |= {"detectable": DETECTABLE, "bounds": BOUNDS, "operating": OPERATING, "requirements": JUDGEMENTS}
     if table not in known:
         raise FddbenchError(f"no table is called {table!r}; known: {', '.join(known)}")

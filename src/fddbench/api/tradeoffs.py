@@ -13,6 +13,7 @@ import yaml
 from fddbench.api.campaigns import read
 from fddbench.campaign.finding import find_campaign
 from fddbench.campaign.meaning import Campaign
+from fddbench.campaign.reading.overrides import ALONE
 from fddbench.design.changed import changed_design
 from fddbench.design.recipe import recipe_of
 from fddbench.design.tuning.checks import require_tuning
@@ -85,7 +86,7 @@ def tradeoff(
         (folder / "campaign.yaml").write_text(asked.text, encoding="utf-8")
         for own, content in asked.beside.items():
             (folder / own).write_bytes(content)
-        flown = read(folder / "campaign.yaml", [f"detectors=[{', '.join(made)}]"])
+        flown = read(folder / "campaign.yaml", [f"detectors=[{', '.join(made)}]", *ALONE])
         run_campaign(flown, folder / "results", jobs=jobs)
         rows = load(folder / "results")
         assembly = assemble(flown)

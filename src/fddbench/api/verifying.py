@@ -10,6 +10,7 @@ import pyarrow as pa
 from fddbench.errors import FddbenchError
 from fddbench.results.folder import provenance_of
 from fddbench.results.inspection import wrong_with
+from fddbench.results.kept import kept_of
 from fddbench.results.manifest import shards
 from fddbench.results.stages import Numbering
 from fddbench.results.table import read_rows
@@ -17,7 +18,7 @@ from fddbench.runner.assembling import assemble
 from fddbench.runner.fingerprint import frozen, other_program
 from fddbench.runner.flight import Flyer
 from fddbench.runner.rehearsal import rehearsed
-from fddbench.runner.work import rows_and_events
+from fddbench.runner.rows import rows_and_events
 
 __all__ = ["Verified", "verify"]
 
@@ -83,10 +84,11 @@ def verify(
     held = np.flatnonzero(numbering.held(shards(path)).all(axis=0))
     chosen = np.sort(np.random.default_rng(seed).choice(held, min(refly, len(held)), replace=False))
     flyer = rehearsed(Flyer(assemble(campaign)), notice)
-    there = read_rows(path)
+    there, keeps = read_rows(path), kept_of(path)
     for first in range(0, len(chosen), _AT_ONCE):
         some = chosen[first : first + _AT_ONCE]
-        again, _ = rows_and_events(flyer, some)
+        again, events = rows_and_events(flyer, some)
+        again = again if keeps is None else keeps.thinned(again, events)[0]
         names = flyer.assembly.plan.names(some)
         kept = pa.Table.from_pandas(there[there["case"].isin(list(names))], preserve_index=False)
         found.different += _different(kept, again)

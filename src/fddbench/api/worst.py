@@ -8,6 +8,8 @@ import numpy as np
 import pandas as pd
 
 from fddbench.errors import FddbenchError
+from fddbench.results.counted import read_tallies
+from fddbench.results.kept import kept_of
 from fddbench.results.table import load
 
 __all__ = ["worst"]
@@ -49,9 +51,27 @@ def worst(folder: str | Path, detectors: Sequence[str] = (), *, most: int = 3) -
         for _, group in rows.groupby(["scenario", "detector"], sort=False)
         for rank, line in _of_one(group, most)
     ]
+    lines += list(_counted(Path(folder), rows, detectors))
     # by what went wrong, then in the order of the rows
     ordered = [line for _, line in sorted(lines, key=lambda each: each[0])]
     return pd.DataFrame(ordered, columns=["case", "detector", "outcome", "what"])
+
+
+def _counted(folder: Path, rows: pd.DataFrame, detectors: Sequence[str]) -> Iterator[tuple[int, dict[str, Any]]]:
+    """Of a folder that does not keep all rows, one flight of each kind of failure that none is kept of."""
+    if kept_of(folder) is None:
+        return
+    there = set(zip(rows["scenario"], rows["detector"], rows["outcome"], strict=True))
+    tallies = read_tallies(folder)
+    wrong = tallies[
+        tallies["outcome"].isin(list(_RANKS)) & (tallies["detector"].isin(list(detectors)) | (not detectors))
+    ]
+    for key, group in wrong.groupby(["scenario", "detector", "outcome"], sort=False):
+        if key not in there:
+            first, (scenario, detector, outcome) = group.iloc[0], [str(part) for part in key]
+            case = f"{scenario}/{first['point']}/{first['level']}/{first['example_run']}"
+            what = f"{outcome.replace('_', ' ')}: one of {int(group['rows'].sum())}, whose rows are not kept"
+            yield _RANKS[outcome], {"case": case, "detector": detector, "outcome": outcome, "what": what}
 
 
 def _of_one(group: pd.DataFrame, most: int) -> Iterator[tuple[int, dict[str, Any]]]:
@@ -103,3 +123,6 @@ _KINDS: Sequence[tuple[Callable[[pd.DataFrame], Any], str, bool, Callable[[dict[
     ),
 )  # fmt: skip
 """What went wrong, worst first: which rows, ordered by what, the smallest first, and in words. Of the last two one flight."""
+
+_RANKS = {"wrong_site": 1, "missed": 2, "late": 3, "false_alarm": 4}
+"""Outcomes that are failures, by the places of their kinds."""

@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from fddbench.campaign.meaning import Campaign, Scenario
 from fddbench.campaign.plan import Plan
-from fddbench.campaign.rules.model import Dispersions
+from fddbench.campaign.rules.dispersions import Dispersions
 from fddbench.campaign.sampling import digits, point_radices
 
 __all__ = ["in_the_way", "points_in"]
@@ -21,6 +21,7 @@ _EQUAL = {
     "substeps": "substeps",
     "duration_s": "duration_s",
     "reconfigure": "reconfigure",
+    "keep": "keep",
 }
 
 
@@ -34,6 +35,8 @@ def in_the_way(old: Plan, new: Plan) -> Iterator[str]:
     for key, word in _EQUAL.items():
         if getattr(was, key) != getattr(now, key):
             yield f"{word} was {getattr(was, key)!r} and is {getattr(now, key)!r}"
+    if was.keep != "all" and was.kept_runs != now.kept_runs:
+        yield f"kept_runs was {was.kept_runs} and is {now.kept_runs}"
     if dict(was.choices) != dict(now.choices):
         yield f"the choices were {_listed(was.choices)} and are {_listed(now.choices)}"
     yield from _dispersions(was.dispersions, now.dispersions)

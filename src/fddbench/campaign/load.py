@@ -140,6 +140,8 @@ def _content(
     # a campaign means what it meant before there were these keys
     if written.reconfigure is None:
         del content["reconfigure"]
+    if written.keep == "all":
+        del content["keep"], content["kept_runs"]
     drawn = written.dispersions.monte_carlo
     if drawn is not None and drawn.plain:
         for key in ("sampling", "table", "correlation"):
@@ -160,4 +162,6 @@ _AS_WRITTEN = (
     "duration_s",
     "dispersions",
     "requirements",
+    "keep",
+    "kept_runs",
 )

@@ -5,7 +5,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from fddbench.campaign.rules.model import Dispersions, Purpose, RequirementEntry, ScenarioEntry
+from fddbench.campaign.rules.dispersions import Dispersions
+from fddbench.campaign.rules.model import Keep, Purpose, RequirementEntry, ScenarioEntry
 from fddbench.designs.design import Design
 from fddbench.faults.specification import FaultSpecification
 from fddbench.interfaces import Benchmark, Floats, Plant
@@ -54,6 +55,8 @@ class Campaign:
         Name of the detector on whose declarations the aircraft acts, "" for none, and where the file says so.
     requirements : tuple of RequirementEntry
         What is required of its detectors; no part of any row.
+    keep, kept_runs : str, int
+        Which rows are kept: all, or of how many runs; see `fddbench.campaign.rules.model.CampaignFile`.
     text : str
         Canonical YAML of the campaign with all overrides; `read_campaign` reads it back to the same campaign.
     table : mapping of str to (n_rows,) array
@@ -85,6 +88,8 @@ class Campaign:
     reconfigure: str
     reconfigure_where: str = field(repr=False)
     requirements: tuple[RequirementEntry, ...]
+    keep: Keep
+    kept_runs: int
     text: str = field(repr=False)
     table: Mapping[str, Floats] = field(repr=False)
     beside: Mapping[str, bytes] = field(repr=False)

@@ -7,7 +7,8 @@ import numpy.typing as npt
 
 from fddbench.blocks.consumers import DISPERSION, MAX_ATTEMPTS
 from fddbench.blocks.philox import normals, uniforms
-from fddbench.campaign.rules.model import Dispersions, Distribution, Purpose, TruncatedNormal
+from fddbench.campaign.rules.dispersions import Dispersions, Distribution, TruncatedNormal
+from fddbench.campaign.rules.model import Purpose
 from fddbench.campaign.shares import drawn_together
 from fddbench.campaign.streams import flight_stream, name_word
 from fddbench.interfaces import Floats, Parameter

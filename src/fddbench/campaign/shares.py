@@ -20,7 +20,7 @@ from scipy.special import ndtr, ndtri
 
 from fddbench.blocks.consumers import DISPERSION
 from fddbench.blocks.philox import normals, uniforms
-from fddbench.campaign.rules.model import Distribution, MonteCarlo
+from fddbench.campaign.rules.dispersions import Distribution, MonteCarlo
 from fddbench.campaign.streams import name_word
 from fddbench.interfaces import Floats
 

@@ -117,11 +117,15 @@ def told(
 def _summary(folder: Path, tables: "tuple[pd.DataFrame, pd.DataFrame]", *, wide: bool, failed: bool) -> None:
     """Print the summary tables of a folder of results, wide ones with their bounds, and which of its flights failed."""
     from fddbench.reporting.terminal import to_text
+    from fddbench.results.kept import kept_of
     from fddbench.results.whole import holdings
 
     found = holdings(folder)
     if found.partial:
         print(f"not the whole campaign: {found.sentence}")
+    kept = kept_of(folder)
+    if kept is not None:
+        print(f"all rows are counted; kept are {kept}")
     summary, alarms = tables
     print(to_text(_with_bounds(folder, summary) if wide else summary, alarms, wide=wide))
     if failed:
@@ -187,17 +191,15 @@ def scores(args: argparse.Namespace) -> int:
 
     A folder that does not hold all flights of its campaign is refused.
     """
-    from fddbench.api.detectability import detectable_of
+    from fddbench.api.tables import detectable, overview
     from fddbench.reporting.scores import scores_text
     from fddbench.results.folder import provenance_of
-    from fddbench.results.table import load
+    from fddbench.results.kept import kept_of
     from fddbench.results.whole import require_whole
-    from fddbench.runner.fingerprint import frozen
 
     require_whole(args.folder)
-    rows, campaign = load(args.folder), frozen(args.folder)
-    maps = detectable_of(rows, campaign)
-    print(scores_text(rows, provenance_of(args.folder), campaign.in_sample, maps), end="")
+    maps = detectable(args.folder) if kept_of(args.folder) is None else None
+    print(scores_text(*overview(args.folder), provenance_of(args.folder), maps), end="")
     return 0
 
 

@@ -1,6 +1,7 @@
 """The command that makes C of a design."""
 
 import argparse
+import shlex
 from pathlib import Path
 from typing import Any
 
@@ -31,14 +32,15 @@ def export(args: argparse.Namespace) -> int:
     if code.loss:
         said = ", ".join(f"{key} {value:.2g}" for key, value in code.loss.items())
         print(f"single precision against double, on the vectors: {said}")
-    print(f"test it: cd {output} && cc -std=c99 -O2 -ffp-contract=off {name}.c {name}_selftest.c -lm && ./a.out")
+    compiled = f"cc -std=c99 -O2 -ffp-contract=off {name}.c {name}_selftest.c -lm"
+    print(f"test it: cd {shlex.quote(str(output))} && {compiled} && ./a.out")
     return 0
 
 
 def _symbols(text: str | None) -> Any:
     """A library by name, or a list of symbols with sizes: ``add,mul,lookup:64``."""
     from fddbench.errors import FddbenchError
-    from fddbench.exported.symbols import LIBRARIES
+    from fddbench.exported.symbols import LIBRARIES, SYMBOLS
 
     if text is None or text in LIBRARIES:
         return text
@@ -48,7 +50,7 @@ def _symbols(text: str | None) -> Any:
         if colon and not (size.isascii() and size.isdigit() and len(size) < 10):
             raise FddbenchError(f"--symbols: a size is a whole number, as in lookup:64; got {part!r}")
         found.append({name: int(size)} if colon else name)
-    return found if len(found) > 1 else text
+    return found if len(found) > 1 or ":" in text or text in SYMBOLS else text
 
 
 def arguments(export: argparse.ArgumentParser) -> None:

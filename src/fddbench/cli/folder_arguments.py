@@ -9,6 +9,7 @@ from fddbench.cli.checked_numbers import flights as _flights
 from fddbench.cli.checked_numbers import jobs as _jobs
 from fddbench.cli.checked_numbers import runs as _runs
 from fddbench.cli.checked_numbers import seed as _seed
+from fddbench.cli.run_arguments import by_engine
 
 __all__ = ["growing_arguments", "looking_arguments", "trusting", "verify_arguments"]
 
@@ -58,6 +59,7 @@ def growing_arguments(subs) -> None:  # type: ignore[no-untyped-def]
     )  # fmt: skip
     extend.add_argument("--jobs", type=_jobs, default=2, metavar="N", help="worker processes (default: 2)")
     extend.add_argument("--backend", choices=("auto", "llvm", "numpy"), default="auto", help="as of run")
+    by_engine(extend)
     extend.add_argument("--quiet", action="store_true", help="no progress")
     trusting(extend)
 

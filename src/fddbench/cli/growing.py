@@ -30,6 +30,8 @@ def extend(args: argparse.Namespace) -> int:
             scenarios=args.scenario,
             jobs=args.jobs,
             backend=args.backend,
+            engine=args.engine,
+            address=args.dask_address or args.ray_address,
             progress=progress,
             notice=lambda text: print(f"fddbench: {text}", file=sys.stderr),
             summarised=lambda *tables: kept.append(tables),

@@ -51,6 +51,10 @@ def _require_outputs(args: argparse.Namespace) -> None:
         if path:
             require(path)
             require_writable(path, option)
+            if not path.parent.exists():
+                raise FddbenchError(
+                    f"cannot write {path}: there is no folder {path.parent}; make it, or name another file with {option}"
+                )
 
 
 def worst(args: argparse.Namespace) -> int:

@@ -4,14 +4,16 @@ Exit codes: 0 done, 1 done but some cases failed, 2 a mistake in what the user w
 interrupted, 143 ended from outside.
 """
 
+import argparse
 import errno
 import os
 import signal
 import sys
 import threading
+import time
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from io import TextIOWrapper
 from pathlib import Path
 from types import FrameType
@@ -23,6 +25,8 @@ from fddbench.errors import FddbenchError, ResultsWarning
 __all__ = ["entry", "main", "parser"]
 
 _INTERRUPTED, _TERMINATED, _DISK = 130, 143, 74
+_PATIENCE_S = 10.0
+"""How long what is finished may be counted before a second Ctrl-C ends that too."""
 _PERMISSION = "change its permissions, or name another file or folder"
 _DISK_ERRORS = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS}
 
@@ -39,10 +43,10 @@ def main(argv: list[str] | None = None) -> int:
             stream.reconfigure(errors="backslashreplace")  # a file's name may hold what a terminal cannot print
     ended: list[int] = []
     try:
-        with warnings.catch_warnings(), _termination(ended):
+        with warnings.catch_warnings(), _signals(ended):
             _say_in_words()
             if getattr(args, "trust", False):
-                _trust(args.source if "source" in args else args.folder)
+                _trust(args)
             code: int = args.command(args)
         sys.stdout.flush()
         return _TERMINATED if ended and code == _INTERRUPTED else code
@@ -66,28 +70,41 @@ def main(argv: list[str] | None = None) -> int:
 
 
 @contextmanager
-def _termination(ended: list[int]) -> Iterator[None]:
-    """End at SIGTERM as at Ctrl-C, what is finished saved; `ended` then has the number of the signal."""
+def _signals(ended: list[int]) -> Iterator[None]:
+    """End once at Ctrl-C or SIGTERM, what is finished saved and counted; `ended` then has the number of a SIGTERM.
 
-    def end(number: int, frame: FrameType | None) -> None:
-        ended.append(number)
-        signal.default_int_handler(number, frame)  # not by a statement: that would be a detector's own
+    A second one does not disturb the counting, unless that lasts for long.
+    """
+    first: list[float] = []
 
-    try:
-        before = signal.signal(signal.SIGTERM, end)
-    except ValueError:  # not the main thread
-        yield
-        return
+    def interrupt(number: int, frame: FrameType | None) -> None:
+        if number == signal.SIGTERM:
+            ended.append(number)
+        if not first or time.monotonic() - first[0] > _PATIENCE_S:
+            first.append(time.monotonic())
+            signal.default_int_handler(number, frame)  # not by a statement: that would be a detector's own
+
+    before = {}
+    for number in (signal.SIGTERM, signal.SIGINT):
+        if number == signal.SIGINT and signal.getsignal(number) is not signal.default_int_handler:
+            continue  # ignored, as of a job in the background, or somebody else's
+        with suppress(ValueError):  # not the main thread
+            before[number] = signal.signal(number, interrupt)
     try:
         yield
     finally:
-        signal.signal(signal.SIGTERM, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
-def _trust(folder: Path) -> None:
+def _trust(args: argparse.Namespace) -> None:
+    """Let the plug-ins of the folders of a command run."""
+    from fddbench.api.pages import newest
     from fddbench.api.trusting import trust
 
-    trust(folder)
+    named = args.source if "source" in args else args.folders if "folders" in args else args.folder
+    for folder in [named] if isinstance(named, Path) else named or [newest()]:
+        trust(folder)
 
 
 def _say_in_words() -> None:
@@ -113,6 +130,8 @@ def entry() -> None:
     # what is freed goes back to the system: a tenth less memory for tables of many rows
     os.environ.setdefault("ARROW_DEFAULT_MEMORY_POOL", "system")
     code = main()
+    if code in (_INTERRUPTED, _TERMINATED):
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # all is said
     if code and any(thread.daemon for thread in threading.enumerate()):
         # threads that still fly would meet an interpreter that is taken down, and abort the process instead of this code
         sys.stdout.flush()

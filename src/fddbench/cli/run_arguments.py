@@ -1,11 +1,11 @@
-"""Arguments of `run`."""
+"""Arguments of `run`, and those that say who flies."""
 
 import argparse
 from pathlib import Path
 
 from fddbench.cli.checked_numbers import jobs
 
-__all__ = ["run_arguments"]
+__all__ = ["by_engine", "run_arguments"]
 
 
 def run_arguments(command: argparse.ArgumentParser) -> None:
@@ -36,6 +36,13 @@ def run_arguments(command: argparse.ArgumentParser) -> None:
         "--retry-failed", action="store_true",
         help="fly again what ended in error, nonfinite, memory, timeout or crashed (with the flights of its shards)",
     )  # fmt: skip
+    by_engine(command)
+    command.add_argument("--quiet", action="store_true", help="no progress")
+    command.add_argument("--wide", action="store_true", help="every column of the table, as wide as it is")
+
+
+def by_engine(command: argparse.ArgumentParser) -> None:
+    """Options that say who flies."""
     command.add_argument(
         "--engine", choices=("auto", "threads", "loky", "dask", "ray"), default="auto",
         help="who flies: threads where compiled code flies, else processes (auto), or one by name; no part of any result",
@@ -47,5 +54,3 @@ def run_arguments(command: argparse.ArgumentParser) -> None:
             metavar="ADDRESS",
             help=f"{name} cluster to fly on, e.g. {port} (default: one of this machine)",
         )
-    command.add_argument("--quiet", action="store_true", help="no progress")
-    command.add_argument("--wide", action="store_true", help="every column of the table, as wide as it is")

@@ -185,7 +185,7 @@ def read_design(path: Path, *, where: str = "") -> Design:
         files=files,
         path=path,
         where=where,
-        gamma=_gamma(written.recipe),
+        gamma=written.gamma,
         members=members,
         written=document.mapping("gains"),
         every=written.every,
@@ -239,9 +239,3 @@ def _code(document: Document, written: DesignFile | None, folder: Path, mistakes
     except FddbenchError as error:
         mistakes.append(document.mistake(("code",), str(error)))
         return {}
-
-
-def _gamma(recipe: Mapping[str, Any] | None) -> float | None:
-    found = (recipe or {}).get("found")
-    gamma = found.get("gamma") if isinstance(found, dict) else None
-    return float(gamma) if isinstance(gamma, float | int) else None

@@ -80,6 +80,13 @@ class DesignFile(Strict):
     recipe: dict[str, Any] | None = None
     gains: dict[str, Any]
 
+    @property
+    def gamma(self) -> float | None:
+        """What the recipe found to be guaranteed in the worst case [-]; None without one."""
+        found = (self.recipe or {}).get("found")
+        gamma = found.get("gamma") if isinstance(found, dict) else None
+        return float(gamma) if isinstance(gamma, float | int) else None
+
 
 def design_text(data: Mapping[str, Any]) -> str:
     """File of a design: a first line that says what it is, then the keys, a line per row of a matrix."""

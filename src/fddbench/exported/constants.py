@@ -40,14 +40,14 @@ class Constants:
         Parameters
         ----------
         beside : sequence of float
-            Numbers that the same operation of the statement takes: a constant that has all of them is meant.
+            Numbers that the same operation of the statement takes: of several constants that have the number the one that has
+            all of them is meant; where none or two have, the number stands in figures, for nobody knows whose it is.
         """
         if not statement.place and value in self._known:
             return self._known[value]
-        found = list(self.members.named(value, statement.words, statement.filename))
-        if not found:
+        constant = self._meant(list(self.members.named(value, statement.words, statement.filename)), beside)
+        if constant is None:
             return f"({self.spelling.number(value)})" if str(value).startswith("-") else self.spelling.number(value)
-        constant = max(found, key=lambda each: sum(each.place_of(other) is not None for other in set(beside)))
         at = (statement, constant.path, tuple(beside))
         place = constant.place_of(value, self._after.get(at, -1)) or 0
         self._after[at] = place
@@ -57,6 +57,16 @@ class Constants:
             self._used[constant.path] = name, constant
         self._known[value] = name + _subscripts(place, constant.values.shape)
         return self._known[value]
+
+    @staticmethod
+    def _meant(found: Sequence[Constant], beside: Sequence[float]) -> Constant | None:
+        """The one of some constants that a statement means; None where that cannot be told."""
+        different = list(
+            {(each.name, each.values.shape, each.values.tobytes()): each for each in reversed(found)}.values()
+        )
+        if len(different) > 1:
+            different = [each for each in different if all(each.place_of(other) is not None for other in beside)]
+        return different[0] if len(different) == 1 else None
 
     def table(self, table: Table) -> str:
         """Name of a look-up table."""
@@ -74,13 +84,15 @@ class Constants:
         return ""
 
     def definitions(self) -> dict[str, list[str]]:
-        """Lines of each constant by its name, a comment first."""
+        """Lines of each constant by its name, a comment first; with its unit where its name tells it."""
         real, found = self.spelling.real, dict[str, list[str]]()
         for name, constant in self._used.values():
-            unit = "1/s" if constant.name.endswith("_1_s") else unit_of_name(constant.name) or "-"
+            unit = "1/s" if constant.name.endswith("_1_s") else unit_of_name(constant.name)
             shape = "".join(f"[{n}]" for n in constant.values.shape)
             text = f"static const {real} {name}{shape} = {self._numbers(constant.values.tolist(), '')};"
-            found.setdefault(name, [f"/* {constant.path.rsplit('/', 1)[-1]} [{unit}] */", *text.split("\n")])
+            found.setdefault(
+                name, [f"/* {constant.path.rsplit('/', 1)[-1]}{f' [{unit}]' if unit else ''} */", *text.split("\n")]
+            )
         for table, name in self._tables.items():
             text = f"static const {real} {name}[{len(table)}] = {self._numbers(table.values.tolist(), '')};"
             found[name] = [f"/* {self.members.tables.get(table, 'table')} */", *text.split("\n")]

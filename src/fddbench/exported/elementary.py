@@ -16,6 +16,19 @@ USES = {
 }  # fmt: skip
 """Operations inside each."""
 
+_IN_SINGLE = {
+    "{1.57079632673412561417e00, 6.07710050630396597660e-11, 2.02226624879595063154e-21}":
+        "{1.5703125, 4.837512969970703125e-4, 7.54978995489188216e-8}",
+    "LN2_HIGH = 6.93147180369123816490e-01": "LN2_HIGH = 0.693359375",
+    "LN2_LOW = 1.90821492927058770002e-10": "LN2_LOW = -2.12194440e-4",
+    "fdd_min(2000.0, fdd_max(-2000.0,": "fdd_min(250.0, fdd_max(-250.0,",
+    "below 1e5": "below 8e3",
+    "k_sin.c and k_cos.c.": "k_sin.c and k_cos.c; parts of the right angle: Moshier, Cephes, sinf.c.",
+    "e_log.c.": "e_log.c; parts of ln 2: Moshier, Cephes, logf.c.",
+    "e_exp.c.": "e_exp.c; parts of ln 2: Moshier, Cephes, expf.c.",
+}  # fmt: skip
+"""What single precision needs instead: parts so short that multiples are exact, halves of 2^k within a float's range."""
+
 _TEXTS = {
     "quadrant": """
 /* Sine and cosine of an angle [rad] less the nearest multiple of a right angle, and which quadrant it lies in, 0 to 3.
@@ -180,5 +193,7 @@ def _spelt(text: str, spelling: Spelling) -> str:
     text = text.replace("@NAN@", "0x7FC00000U" if single else "0x7FF8000000000000ULL")
     if not single:
         return text
+    for double, own in _IN_SINGLE.items():
+        text = text.replace(double, own)
     text = re.sub(r"(?<![\w.])(\d+\.\d+(?:e[-+]?\d+)?)(?![\w.])", r"\1f", text).replace("double", spelling.real)
     return re.sub(r"\b(fabs|sqrt|floor|nearbyint)\(", r"\1f(", text)

@@ -6,10 +6,12 @@ from fddbench.exported.interface import Interface, Member
 from fddbench.exported.layout_c import banner
 from fddbench.exported.spelling import Spelling
 
-__all__ = ["LARGEST_INPUT", "guards_text", "largest_number"]
+__all__ = ["LARGEST_INPUT", "SOUND", "USABLE", "guards_text", "largest_number"]
 
 LARGEST_INPUT = 1e9
-"""Inputs above are no signals of an aircraft, whatever their unit."""
+"""Inputs above are no signals of an aircraft, whatever their unit: each is compared in its own."""
+USABLE = f"Whether all inputs are numbers of at most {LARGEST_INPUT:.0e} in size, each in its own unit"
+SOUND = "Whether the state is made of finite numbers; if not, only the init function helps"
 
 
 def largest_number(spelling: Spelling) -> float:
@@ -21,11 +23,11 @@ def guards_text(interface: Interface, spelling: Spelling) -> list[str]:
     """Lines of the two functions."""
     name = interface.name
     return [
-        *banner("Whether all inputs can be used: numbers of a size that a signal may have", []),
+        *banner(USABLE, []),
         f"bool {name}_usable(const {name}_inputs_t *in)",
         *_every(interface.inputs, "in", spelling.number(LARGEST_INPUT), spelling),
         "",
-        *banner("Whether the state is made of finite numbers; if not, only the init function helps", []),
+        *banner(SOUND, []),
         f"bool {name}_sound(const {name}_state_t *x)",
         *_every(interface.state, "x", spelling.number(largest_number(spelling)), spelling),
     ]

@@ -2,8 +2,9 @@
 
 from collections.abc import Iterator, Sequence
 
+from fddbench.exported.guards_c import SOUND, USABLE
 from fddbench.exported.interface import Interface, Member
-from fddbench.exported.layout_c import banner, signature
+from fddbench.exported.layout_c import COLUMNS, banner, comment, signature
 from fddbench.exported.spelling import Spelling
 
 __all__ = ["header_text"]
@@ -36,10 +37,10 @@ def _lines(interface: Interface, spelling: Spelling, head: Sequence[str]) -> Ite
     )
     yield from (*lines, f"{last};")
     yield ""
-    yield from banner("Whether all inputs can be used: numbers of a size that a signal may have", [])
+    yield from banner(USABLE, [])
     yield f"bool {name}_usable(const {name}_inputs_t *in);"
     yield ""
-    yield from banner("Whether the state is made of finite numbers; if not, only the init function helps", [])
+    yield from banner(SOUND, [])
     yield f"bool {name}_sound(const {name}_state_t *x);"
     yield from ("", f"#endif /* {guard} */")
 
@@ -50,8 +51,12 @@ def _struct(about: str, name: str, members: Sequence[Member], spelling: Spelling
     yield "{"
     for member in members:
         size = f"[{member.rows}]" if member.rows else ""
+        line = f"    {spelling.real} {member.name}{size};"
         remark = f" /* {member.comment} */" if member.comment else ""
-        yield f"    {spelling.real} {member.name}{size};{remark}"
+        if len(line + remark) > COLUMNS:
+            yield from comment(member.comment)
+            remark = ""
+        yield line + remark
     if not members:
         yield f"    {spelling.real} nothing; /* there is none */"
     yield f"}} {name};"

@@ -175,7 +175,7 @@ def _kept(shape: Any, path: str) -> str:
     for part in parts[:-1]:
         record = record[int(part)] if isinstance(record, tuple) else getattr(record, part)
     fields = list(getattr(record, "__dataclass_fields__", ()))
-    text = (getdoc(type(record)) or "").split("\n")[0]
+    text = re.sub(r",? \([^()]*n_cases\)( each)?", "", (getdoc(type(record)) or "").split("\n")[0])  # shapes of Python
     return text.encode("ascii", "replace").decode() if fields and fields[0] == parts[-1] else ""
 
 

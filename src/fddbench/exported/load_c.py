@@ -14,6 +14,7 @@ from fddbench.exported.interface import Interface
 __all__ = ["LoadInC", "load_in_c"]
 
 _BLOCKS, _STEPS = 50, 400
+_LONGEST_S = 300.0
 _MAIN = """\
 #include "{name}.h"
 
@@ -55,17 +56,18 @@ int main(void)
 
 @dataclass(frozen=True, kw_only=True)
 class LoadInC:
-    """Load of a step in C; every path is the longest, for none depends on data.
+    """Load of a step in C; no loop depends on data, but a choice may compute one of its sides only.
 
     Attributes
     ----------
     code_bytes, table_bytes, state_bytes : int
         Machine code, constants, and the state.
     stack_bytes : int or None
-        Of the step and all its functions together; None where the compiler does not say it.
+        Frames of the step and of all functions that it may call together, so at least what it takes but for math.h; None where
+        the compiler does not say it.
     ticks : int or None
-        Of the time-stamp counter (constant rate, not cycles of the core), the mean of 400 steps, fewest of 50 times; None where
-        there is no such counter.
+        Of the time-stamp counter (constant rate, not cycles of the core), the mean of 400 steps with inputs of 0, fewest of 50
+        times; None where there is no such counter.
     by : str
         Compiler and flags.
     """
@@ -80,10 +82,10 @@ class LoadInC:
     def __str__(self) -> str:
         """In one line."""
         stack = "" if self.stack_bytes is None else f", stack {self.stack_bytes} B"
-        ticks = "" if self.ticks is None else f"; {self.ticks} time-stamp ticks a step here"
+        ticks = "" if self.ticks is None else f"; {self.ticks} time-stamp ticks a step here, inputs 0"
         return (
-            f"in C: code {self.code_bytes} B, tables {self.table_bytes} B, state {self.state_bytes} B{stack}{ticks}; one path, "
-            f"the longest ({self.by})"
+            f"in C: code {self.code_bytes} B, tables {self.table_bytes} B, state {self.state_bytes} B{stack}{ticks}; no loop "
+            f"depends on data ({self.by})"
         )
 
 
@@ -101,25 +103,35 @@ def load_in_c(interface: Interface, files: Mapping[str, str], by: Compiler) -> L
         for file, text in {**files, "timed.c": _MAIN.format(name=name, blocks=_BLOCKS, steps=_STEPS)}.items():
             (where / file).write_text(text, encoding="utf-8")
         usage = ["-fstack-usage"] if "clang" not in by.version else []
-        made = subprocess.run(
-            [*by.command, *by.flags, *usage, "-c", f"{name}.c", "-o", "own.o"],
-            cwd=where,
-            capture_output=True,
-            check=False,
-        )
-        if made.returncode or shutil.which("size") is None:
-            raise CompileError(f"{by.version} makes no object of {name}.c, or there is no `size` (Debian: binutils)")
-        sections = subprocess.run(["size", "-A", "own.o"], cwd=where, capture_output=True, text=True, check=True).stdout
+        if shutil.which("size") is None:
+            raise CompileError("there is no `size`, which says how large an object is; install it (Debian: binutils)")
+        _said([*by.command, *by.flags, *usage, "-c", f"{name}.c", "-o", "own.o"], where)
+        sections = _said(["size", "-A", "own.o"], where)
         sizes = {part: int(n) for part, n in re.findall(r"^(\.[\w.]+)\s+(\d+)", sections, flags=re.MULTILINE)}
         compile_in(where, by, [f"{name}.c", "timed.c"], "timed")
-        ticks, state = subprocess.run(["./timed"], cwd=where, capture_output=True, text=True, check=True).stdout.split()
-        stack = (
-            [int(line.split("\t")[1]) for line in (where / "own.su").read_text().splitlines()]
-            if (where / "own.su").exists()
-            else None
-        )
+        ticks, state = _said(["./timed"], where).split()
+        stack = _stack(where / "own.su", name)
     return LoadInC(
         code_bytes=sum(n for part, n in sizes.items() if part.startswith(".text")),
         table_bytes=sum(n for part, n in sizes.items() if part.startswith(".rodata")),
-        state_bytes=int(state), stack_bytes=None if stack is None else sum(stack), ticks=int(ticks) or None, by=str(by),
+        state_bytes=int(state), stack_bytes=stack, ticks=int(ticks) or None, by=str(by),
     )  # fmt: skip
+
+
+def _said(command: list[str], where: Path) -> str:
+    """What a command says that must end well."""
+    try:
+        return subprocess.run(command, cwd=where, capture_output=True, text=True, check=True, timeout=_LONGEST_S).stdout
+    except subprocess.CalledProcessError as error:
+        raise CompileError(f"{command[0]} ended with {error.returncode}: {error.stderr.strip()[:500]}") from error
+    except (OSError, subprocess.TimeoutExpired) as error:
+        raise CompileError(f"{command[0]} cannot be run: {error}") from error
+
+
+def _stack(usage: Path, name: str) -> int | None:
+    """Bytes of stack of the step and what it calls; the other functions of the header are no part of a step."""
+    if not usage.exists():
+        return None
+    others = {f"{name}_{each}" for each in ("init", "usable", "sound")}
+    frames = [line.split("\t") for line in usage.read_text().splitlines()]
+    return sum(int(size) for where, size, *_ in frames if where.rsplit(":", 1)[-1] not in others)

@@ -67,34 +67,18 @@ def cut(program: Program) -> Cut:
     operations = [j for j, node in enumerate(program.nodes) if node.arguments and node.op != "rarely"]
     origins = program.origins or (None,) * len(program.nodes)
 
-    def block(j: int) -> str:
-        origin = origins[j]
-        return origin.block if origin else ""
-
-    def place(j: int) -> str:
-        origin = origins[j]
-        return origin.line if origin else ""
+    def of(j: int, what: str) -> str:
+        return getattr(origins[j], what, "")
 
     sections = []
-    for name, inside in groupby(operations, block):
-        lines = (Line(statement_at(where), tuple(nodes)) for where, nodes in groupby(inside, place))
+    for name, inside in groupby(operations, lambda j: of(j, "block")):
+        lines = (Line(statement_at(where), tuple(nodes)) for where, nodes in groupby(inside, lambda j: of(j, "line")))
         sections.append(Section(name.rsplit(".", 1)[-1], tuple(_merged(lines))))
     return Cut(tuple(sections), tuple(alias))
 
 
 def _merged(lines: Iterator[Line]) -> Iterator[Line]:
     """Lines, those that take turns for the rows of one statement joined."""
-    held: Line | None = None
-    for line in lines:
-        if (
-            held is not None
-            and held.statement.text == line.statement.text
-            and held.statement.place == line.statement.place
-        ):
-            held = Line(held.statement, held.nodes + line.nodes)
-            continue
-        if held is not None:
-            yield held
-        held = line
-    if held is not None:
-        yield held
+    for _, alike in groupby(lines, lambda line: (line.statement.text, line.statement.place)):
+        first, *others = alike
+        yield Line(first.statement, sum((line.nodes for line in others), first.nodes))

@@ -188,7 +188,7 @@ class _Source:
         lines = list(assignments_text(map(Assignment, self.interface.state_places, start), "    ", {}))
         if any("for (i" in line for line in lines):
             yield from ("    uint32_t i;", "")
-        yield from lines or ["    x->nothing = 0.0;"]
+        yield from lines or [f"    x->nothing = {self.spelling.number(0.0)};"]
         yield "}"
 
     def _step(self, functions: Iterable[_Function]) -> Iterator[str]:
@@ -221,8 +221,14 @@ def _known(interface: Interface) -> dict[int, str]:
 
 
 _GUARDS = (
-    "/* The bits are those of IEEE 754, operation by operation. Compile with -ffp-contract=off and without -ffast-math. */",
+    "/* The bits are those of IEEE 754, operation by operation. Compile with -ffp-contract=off and without -ffast-math;",
+    " * GCC 12 needs -fno-tree-slp-vectorize too where it may fuse operations (-O3 -march=native); the self-test tells. */",
     "#if defined(__FAST_MATH__)",
     "#error this file needs the arithmetic of IEEE 754: compile it without -ffast-math",
+    "#endif",
+    "#if defined(__FLT_EVAL_METHOD__)",
+    "#if (__FLT_EVAL_METHOD__ != 0) && (__FLT_EVAL_METHOD__ != 16)",
+    "#error this file needs each operation rounded to its own type: not for an x87, compile it with SSE",
+    "#endif",
     "#endif",
 )

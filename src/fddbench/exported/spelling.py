@@ -12,6 +12,8 @@ from fddbench.errors import DesignError
 
 __all__ = ["DOUBLE", "SINGLE", "Spelling", "Text"]
 
+_SMALLEST = float(np.finfo(np.float32).tiny)
+"""Smallest normal number of single precision."""
 _ROUND = ("fabs", "sqrt", "floor", "nearbyint")
 _CHAINS = {"add": ("add", "sub"), "sub": ("add", "sub"), "mul": ("mul",), "and": ("and",), "or": ("or",)}
 """Operations of which a chain reads from left to right without brackets, with those that may stand on the left."""
@@ -48,14 +50,18 @@ class Spelling:
     suffix: str
 
     def number(self, value: float) -> str:
-        """A number that reads back to the same bits.
+        """A number that reads back to the same bits; one too small for the precision is its smallest normal one, never 0.
 
         >>> DOUBLE.number(1.0), DOUBLE.number(1e-300), SINGLE.number(0.1), DOUBLE.number(float("inf"))
         ('1.0', '1e-300', '0.1f', 'fdd_from_bits(0x7FF0000000000000ULL)')
+        >>> SINGLE.number(-1e-300)
+        '-1.1754944e-38f'
         """
         single = bool(self.suffix)
         with np.errstate(over="ignore"):
             own = float(np.float32(value)) if single else float(value)
+        if single and value and abs(own) < _SMALLEST:  # a floor under a divisor stays one
+            own = float(np.copysign(_SMALLEST, value))
         if not np.isfinite(own):
             bits = struct.unpack(">I" if single else ">Q", struct.pack(">f" if single else ">d", own))[0]
             return f"fdd_from_bits(0x{bits:0{8 if single else 16}X}{'U' if single else 'ULL'})"

@@ -10,7 +10,7 @@ from fddbench.blocks.program import Program
 from fddbench.errors import DesignError, did_you_mean
 from fddbench.exported.statements import statement_at
 
-__all__ = ["LIBRARIES", "Library", "library", "require_symbols"]
+__all__ = ["LIBRARIES", "SYMBOLS", "Library", "library", "require_symbols"]
 
 _GROUPS = {
     "compare": ("lt", "le", "eq", "ne"), "logic": ("and", "or", "not"), "switch": ("select", "number", "pick"),
@@ -18,6 +18,8 @@ _GROUPS = {
 }  # fmt: skip
 """Symbols that are several operations."""
 _FREE = {"literal", "input", "flag", "rarely"}
+SYMBOLS = frozenset({*OPERATIONS, *_GROUPS, "delay"} - _FREE)
+"""What a library may be made of."""
 
 LIBRARIES: dict[str, tuple[Any, ...]] = {
     "scalar": (
@@ -61,21 +63,20 @@ def library(symbols: str | Sequence[Any]) -> Library:
                 f"no symbol library is called {symbols!r}. {f'{hint} ' if hint else ''}Known: {', '.join(LIBRARIES)}"
             )
         return Library(symbols, library(LIBRARIES[symbols]).most)
-    known = {*OPERATIONS, *_GROUPS, "delay"} - _FREE
     most: dict[str, float] = {}
     wrong = []
     for entry in symbols:
         pairs = entry.items() if isinstance(entry, Mapping) else [(entry, float("inf"))]
         for name, size in pairs:
-            if name not in known:
-                hint = did_you_mean(str(name), known)
+            if name not in SYMBOLS:
+                hint = did_you_mean(str(name), SYMBOLS)
                 wrong.append(f"no symbol is called {name!r}{f' ({hint})' if hint else ''}")
             elif isinstance(size, bool) or not isinstance(size, int | float) or size <= 0:
                 wrong.append(f"the size of {name} must be a whole number above 0, got {size!r}")
             else:
                 most |= dict.fromkeys(_GROUPS.get(name, (name,)), float(size))
     if wrong:
-        raise DesignError("symbols: " + "; ".join(wrong) + f". Known: {', '.join(sorted(known))}")
+        raise DesignError("symbols: " + "; ".join(wrong) + f". Known: {', '.join(sorted(SYMBOLS))}")
     return Library("of " + ", ".join(str(next(iter(e))) if isinstance(e, Mapping) else str(e) for e in symbols), most)
 
 

@@ -20,7 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fddbench.interfaces import Floats
-from fddbench.metrics.clustered import pooled_intervals
+from fddbench.metrics.clustered import counts_by_run, pooled_intervals
 
 __all__ = ["Association", "Parts", "associations", "cramers_v", "parted"]
 
@@ -127,7 +127,6 @@ def associations(
     """
     if not len(failed) or failed.all() or not failed.any():
         return []
-    _, runs = np.unique(np.asarray(run), return_inverse=True)
     ranked = []
     for name, own in parts.items():
         n = np.bincount(own.place[own.place >= 0], minlength=len(own.low))
@@ -136,19 +135,9 @@ def associations(
     strongest = sorted((each for each in ranked if each[0] > 0.0), key=lambda each: -each[0])[:most]
     found = []
     for v, name, k, n in strongest:
-        low, high = _ends(parts[name].place, failed, runs, len(k))
         own = parts[name]
+        low, high = pooled_intervals(*counts_by_run(own.place, failed, run, len(k)))
         found.append(
             Association(name=name, v=v, lower=own.low, upper=own.high, failed=k, flights=n, low=low, high=high)
         )
     return found
-
-
-def _ends(place: Places, failed: npt.NDArray[np.bool_], runs: Places, n_parts: int) -> tuple[Floats, Floats]:
-    """Intervals of the failed share of each part, by run."""
-    known = place >= 0
-    shape = (int(runs.max()) + 1, n_parts)
-    hits, trials = np.zeros(shape), np.zeros(shape)
-    np.add.at(trials, (runs[known], place[known]), 1.0)
-    np.add.at(hits, (runs[known & failed], place[known & failed]), 1.0)
-    return pooled_intervals(hits, trials)

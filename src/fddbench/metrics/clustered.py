@@ -21,6 +21,7 @@ Statistics 2(175): the cap at N.
 """
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -29,7 +30,7 @@ from fddbench.errors import FddbenchError
 from fddbench.interfaces import Floats
 from fddbench.metrics.intervals import beta_interval
 
-__all__ = ["PooledShare", "korn_graubard", "pooled_intervals", "quantile_ratio", "sums_by_run"]
+__all__ = ["PooledShare", "counts_by_run", "korn_graubard", "pooled_intervals", "quantile_ratio", "sums_by_run"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -136,6 +137,34 @@ def _effective_trials(y_g: Floats, n_g: Floats) -> float:
     if min(np.count_nonzero(y_g > 0), np.count_nonzero(y_g < n_g)) < 3:
         effective = min(effective, float(n_runs))
     return effective
+
+
+def counts_by_run(
+    place: npt.NDArray[np.integer[Any]], hit: npt.NDArray[np.bool_], run: npt.ArrayLike, n_places: int
+) -> tuple[Floats, Floats]:
+    """Hits and rows of each run at each place, (n_runs, n_places) each: what `pooled_intervals` takes.
+
+    Parameters
+    ----------
+    place : (n,) array of int
+        Where each row counts, 0 to n_places - 1; one below 0 counts nowhere.
+    hit : (n,) array of bool
+    run : (n,) array
+        Run of each row, any labels.
+    n_places : int
+
+    Examples
+    --------
+    >>> hits, trials = counts_by_run(np.array([0, 1, 1, -1]), np.array([True, False, True, True]), [7, 7, 9, 9], 2)
+    >>> hits.tolist(), trials.tolist()
+    ([[1.0, 0.0], [0.0, 1.0]], [[1.0, 1.0], [0.0, 1.0]])
+    """
+    _, runs = np.unique(np.asarray(run), return_inverse=True)
+    known, shape = place >= 0, (int(runs.max(initial=-1)) + 1, n_places)
+    hits, trials = np.zeros(shape), np.zeros(shape)
+    np.add.at(trials, (runs[known], place[known]), 1.0)
+    np.add.at(hits, (runs[known & hit], place[known & hit]), 1.0)
+    return hits, trials
 
 
 def pooled_intervals(hits: Floats, trials: Floats, confidence: float = 0.95) -> tuple[Floats, Floats]:

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.stats import binom, binomtest, norm
+from scipy.special import bdtr, bdtrik, ndtri
 
 from fddbench.errors import FddbenchError
 from fddbench.interfaces import Floats
@@ -107,9 +107,8 @@ def paired_times(a_s: npt.ArrayLike, b_s: npt.ArrayLike, runs: npt.ArrayLike, co
     if not known.any():
         return PairedTimes(pairs=0, median_s=None, low_s=None, high_s=None, p_value=None)
     ordered, n = np.sort(np.round(total / size, 12)), len(total)
-    beyond = int(binom.ppf((1.0 - confidence) / 2.0, n, 0.5))  # order statistics cut off at either end
-    inside = beyond >= 1 and binom.cdf(beyond - 1, n, 0.5) <= (1.0 - confidence) / 2.0
-    low, high = (float(ordered[beyond - 1]), float(ordered[n - beyond])) if inside else (None, None)
+    beyond = _cut_off(n, (1.0 - confidence) / 2.0)
+    low, high = (float(ordered[beyond - 1]), float(ordered[n - beyond])) if beyond else (None, None)
     middle = float(np.median(ordered))
     return PairedTimes(pairs=int(known.sum()), median_s=middle, low_s=low, high_s=high, p_value=_sign_test(ordered))
 
@@ -135,15 +134,23 @@ def _by_run(values: npt.NDArray[Any], runs: npt.NDArray[Any]) -> tuple[Floats, F
     return np.bincount(place, weights=weights).astype(np.float64), np.bincount(place).astype(np.float64)
 
 
+def _cut_off(n: int, level: float) -> int:
+    """Order statistics cut off at either end, so many that fewer of n fair coins show heads with this probability at most."""
+    most = max(int(np.ceil(bdtrik(level, n, 0.5))), 0)
+    while most and bdtr(most - 1, n, 0.5) > level:
+        most -= 1
+    return most
+
+
 def _ends(of_run: Floats, confidence: float) -> tuple[float, float]:
     """Interval of the mean over runs, two of them added: one for either side."""
     own = np.concatenate([of_run, [1.0, -1.0]])
     mean, error = float(own.mean()), float(np.sqrt(np.mean((own - own.mean()) ** 2) / len(own)))
-    away = float(norm.ppf(0.5 + confidence / 2.0)) * error
+    away = float(ndtri(0.5 + confidence / 2.0)) * error
     return max(mean - away, -1.0), min(mean + away, 1.0)
 
 
 def _sign_test(of_run: Floats) -> float:
     """How often as many runs of one sign, two-sided; runs without a difference say nothing."""
     up, down = int(np.sum(of_run > 0.0)), int(np.sum(of_run < 0.0))
-    return float(binomtest(up, up + down).pvalue) if up + down else 1.0
+    return float(min(2.0 * bdtr(min(up, down), up + down, 0.5), 1.0)) if up + down else 1.0

@@ -13,7 +13,7 @@ from fddbench.metrics import distinct
 from fddbench.metrics.alarms import alarm_columns, of_flights
 from fddbench.metrics.shares import column, decided, flown_of, pools, share, share_columns
 
-__all__ = ["COUNTED", "NEEDS", "SUMMARY", "summarize"]
+__all__ = ["COUNTED", "NEEDS", "OF_FAULTS", "SUMMARY", "summarize"]
 
 Value = int | float | str | bool | None
 
@@ -28,7 +28,8 @@ COUNTED = {
 }
 """Outcomes and what they count; they are exclusive and add up to the flown flights."""
 
-_OF_FAULTS = ("wrong_site", "right", "late", "missed", "undecided")
+OF_FAULTS = ("wrong_site", "right", "late", "missed", "undecided")
+"""Those that a faulty flight can have beside a false alarm."""
 _FLAGS = {
     "isolated": "flights that end with exactly the faulty sites declared; null: healthy, or only detects",
     "over_declared": "flights in which more sites were declared than had been faulty; null: healthy, or only detects",
@@ -133,7 +134,7 @@ def _outcomes(flown: pd.DataFrame, *, healthy: bool) -> dict[str, Value]:
     for name in COUNTED:
         applies = (
             name == "false_alarm"
-            or (healthy if name not in _OF_FAULTS else not healthy)
+            or (healthy if name not in OF_FAULTS else not healthy)
             or bool((outcome == name).any())
         )
         line[name] = int(np.sum(outcome == name)) if applies else None

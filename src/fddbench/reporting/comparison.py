@@ -30,7 +30,7 @@ def _cells(line: dict[Any, Any]) -> list[Cell]:
 
 
 def _verdict(line: dict[Any, Any]) -> str:
-    return str(line["verdict"]) if present(line["verdict"]) else "chance explains it"
+    return str(line["verdict"]) if present(line["verdict"]) else "chance may explain it"
 
 
 def comparison_text(table: pd.DataFrame) -> str:

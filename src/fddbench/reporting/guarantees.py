@@ -22,7 +22,8 @@ def guarantee_lines(rows: pd.DataFrame, events: pd.DataFrame, designs: Sequence[
     gammas = {design["name"]: design.get("gamma") for design in designs}
     if len(gammas) < 2 or all(gamma is None for gamma in gammas.values()):
         return []
-    ok = rows[_is(rows, "status", "ok")]
+    ok = rows[["detector", "outcome", "n_faulty", "run", "status"]]
+    ok = ok[_is(ok, "status", "ok")]
     lines = []
     for name, gamma in gammas.items():
         flown, own = ok[_is(ok, "detector", name)], events[_is(events, "detector", name) & _is(events, "status", "ok")]

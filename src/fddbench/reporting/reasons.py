@@ -11,7 +11,7 @@ from fddbench.reporting.tables import Cell
 
 __all__ = ["REASONS", "reason_table"]
 
-REASONS = ("reason", "flights", "as it is", "", "otherwise", "")
+REASONS = ("reason", "flights", "as it is", "not right", "otherwise", "not right then")
 """Heads of what `reason_table` gives."""
 
 _OUTCOMES = {"wrong_site": "wrong", "late": "late", "missed": "missed"}

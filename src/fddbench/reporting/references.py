@@ -29,6 +29,12 @@ METHODS: dict[str, tuple[str, str]] = {
   journal={Journal of Educational and Behavioral Statistics}, volume={37}, number={4}, pages={479--488}, year={2012}}
 @article{holm1979, author={Holm, S.}, title={A simple sequentially rejective multiple test procedure},
   journal={Scandinavian Journal of Statistics}, volume={6}, number={2}, pages={65--70}, year={1979}}"""),
+    "curve": ("probability of detection against size, a90/95", """@techreport{mil1823a,
+  title={Nondestructive evaluation system reliability assessment}, institution={Department of Defense},
+  number={MIL-HDBK-1823A}, year={2009}}
+@article{cheng1988, author={Cheng, R. C. H. and Iles, T. C.},
+  title={One-sided confidence bands for cumulative distribution functions}, journal={Technometrics}, volume={30}, number={2},
+  pages={155--159}, year={1988}}"""),
     "monotone": ("smallest fault found", """@article{ayer1955,
   author={Ayer, M. and Brunk, H. D. and Ewing, G. M. and Reid, W. T. and Silverman, E.},
   title={An empirical distribution function for sampling with incomplete information},

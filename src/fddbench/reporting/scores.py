@@ -1,13 +1,10 @@
 """Scores of a campaign as a small text file, to keep under version control and to compare with a later run."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import pandas as pd
 import yaml
-
-from fddbench.metrics.alarms import summarize_alarms
-from fddbench.metrics.summary import summarize
 
 __all__ = ["detectable", "false_alarms", "scores", "scores_text"]
 
@@ -24,14 +21,14 @@ _DETECTABLE = (
 _ALARMS = ("detector", "in_sample", "pools", "distinct_flights", "alarms", "exposure_h")
 
 
-def scores(rows: pd.DataFrame, in_sample: Collection[str] = ()) -> list[dict[str, Any]]:
+def scores(summary: pd.DataFrame) -> list[dict[str, Any]]:
     """Counts and times by scenario and detector, plain Python values; nulls are left out, and what is not in sample."""
-    return _lines(summarize(rows, in_sample=in_sample), ("scenario", "detector", *_COLUMNS))
+    return _lines(summary, ("scenario", "detector", *_COLUMNS))
 
 
-def false_alarms(rows: pd.DataFrame, in_sample: Collection[str] = ()) -> list[dict[str, Any]]:
+def false_alarms(alarms: pd.DataFrame) -> list[dict[str, Any]]:
     """False alarms of distinct flights by detector, and the hours in which they were watched."""
-    return _lines(summarize_alarms(rows, in_sample=in_sample), _ALARMS)
+    return _lines(alarms, _ALARMS)
 
 
 def _lines(table: pd.DataFrame, columns: Sequence[str]) -> list[dict[str, Any]]:
@@ -48,18 +45,20 @@ def detectable(maps: pd.DataFrame) -> list[dict[str, Any]]:
 
 
 def scores_text(
-    rows: pd.DataFrame,
+    summary: pd.DataFrame,
+    alarms: pd.DataFrame,
     provenance: Mapping[str, object],
-    in_sample: Collection[str] = (),
     maps: pd.DataFrame | None = None,
 ) -> str:
     """YAML text: where the scores come from, one line per scenario and detector, and one per detector of false alarms.
 
-    With `maps`, lines of `fddbench.metrics.detectable.DETECTABLE`, the smallest faults found stand below.
+    `summary` and `alarms` are lines of `fddbench.metrics.summary.SUMMARY` and of `fddbench.metrics.alarms.ALARMS`. With `maps`,
+    lines of `fddbench.metrics.detectable.DETECTABLE`, the smallest faults found stand below.
     """
     kept = ("campaign", "campaign_sha256", "designs_sha256", "seed", "schema_version", "fddbench")
-    head = yaml.safe_dump({"provenance": {name: provenance.get(name) for name in kept}}, sort_keys=False)
-    parts = {"scores": scores(rows, in_sample), "false_alarms": false_alarms(rows, in_sample)}
+    said = {name: provenance.get(name) for name in kept} | {k: provenance[k] for k in ("kept",) if k in provenance}
+    head = yaml.safe_dump({"provenance": said}, sort_keys=False)
+    parts = {"scores": scores(summary), "false_alarms": false_alarms(alarms)}
     if maps is not None and not maps.empty:
         parts["detectable"] = detectable(maps)
     return head + "".join(f"{name}:\n{''.join(map(_as_line, lines))}" for name, lines in parts.items())

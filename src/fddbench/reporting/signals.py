@@ -7,6 +7,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from fddbench.interfaces import Floats, Recording
+from fddbench.reporting.page.columns import FAILED
 
 __all__ = ["rank_of_cases", "redundant", "signal_panels", "window"]
 
@@ -21,7 +22,7 @@ def rank_of_cases(recording: Recording, rows: pd.DataFrame) -> npt.NDArray[np.in
     """
     here = rows[np.asarray(rows["scenario"] == recording.scenario, dtype=bool)]
     here = here[np.asarray(here["case"].isin(list(recording.cases)) & (here["status"] == "ok"), dtype=bool)]
-    failed = np.asarray(here["outcome"].isin(["false_alarm", "wrong_site", "late", "missed"]), dtype=bool)
+    failed = np.asarray(here["outcome"].isin(list(FAILED)), dtype=bool)
     slow = here["normalized_detection_time"].to_numpy(dtype=np.float64, na_value=np.nan)
     margin = here["margin_healthy"].to_numpy(dtype=np.float64, na_value=np.nan)
     case = here["case"].to_numpy(dtype=object)

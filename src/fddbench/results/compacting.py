@@ -17,10 +17,12 @@ from fddbench.errors import ResultsError
 from fddbench.results import manifest
 from fddbench.results.folder import provenance_of
 from fddbench.results.manifest import Shard
+from fddbench.results.ours import TABLES
 from fddbench.results.schema import EVENTS, FAILED, rows_schema
-from fddbench.results.shards import file_sha256, open_table, read_columns, write_tables
+from fddbench.results.shards import file_sha256, open_table, read_columns, write_table, write_tables
+from fddbench.results.tallies import TALLIES, added
 
-__all__ = ["ENOUGH", "Compacted", "compact", "remove_unlisted"]
+__all__ = ["ENOUGH", "Compacted", "compact", "remove_unlisted", "require_sound"]
 
 Cases = npt.NDArray[np.int64]
 
@@ -63,42 +65,40 @@ def compact(folder: Path, *, most: int = _MOST, only: str = "", least: int = 0) 
     after: list[Shard] = []
     for alike in _alike(before):
         ours = alike[0].fingerprint in listed and only in ("", alike[0].fingerprint)
-        small = _sound([shard for shard in alike if ours and _rows(shard) < min(ENOUGH, most)])
-        small = small if sum(map(_rows, small)) >= least else []
-        _require_sound(folder, small)
+        small = _sound([shard for shard in alike if ours and shard.n_rows < min(ENOUGH, most)])
+        small = small if sum(each.n_rows for each in small) >= least else []
+        require_sound(folder, small)
         joined = {shard.rows for shard in small}
         kept = [shard for shard in alike if shard.rows not in joined]
         after += kept + [_joined(folder, group) for group in _groups(small, most)]
     if len(after) < len(before):
         manifest.keep(folder, after)
-        there = {name for shard in after for name in _files(shard)}
-        for name in {name for shard in before for name in _files(shard)} - there:
+        there = {name for shard in after for name, _ in shard.files}
+        for name in {name for shard in before for name, _ in shard.files} - there:
             (folder / name).unlink(missing_ok=True)
-    return Compacted(before=len(before), after=len(after), rows=sum(map(_rows, after)))
+    return Compacted(before=len(before), after=len(after), rows=sum(each.n_rows for each in after))
 
 
-def _require_sound(folder: Path, found: Sequence[Shard]) -> None:
-    """Refuse damaged shards before anything is written."""
+def require_sound(folder: Path, found: Sequence[Shard]) -> None:
+    """Refuse damaged shards before anything is written.
+
+    Raises
+    ------
+    ResultsError
+        A file is not the one that was written.
+    """
     for shard in found:
-        for name, sha256 in ((shard.rows, shard.rows_sha256), (shard.events, shard.events_sha256)):
-            if name is not None and file_sha256(folder / name) != sha256:
+        for name, sha256 in shard.files:
+            if file_sha256(folder / name) != sha256:
                 raise ResultsError(
                     f"{folder / name} is damaged or gone; run the campaign again on this folder, it flies again what is lost"
                 )
-
-
-def _rows(shard: Shard) -> int:
-    return sum(shard.statuses.values())
 
 
 def _sound(found: list[Shard]) -> list[Shard]:
     """Shards without failed rows, where these are most: who flies the others again is to fly few flights."""
     sound = [shard for shard in found if not FAILED & {status for status, n in shard.statuses.items() if n}]
     return sound if 2 * len(sound) > len(found) else found
-
-
-def _files(shard: Shard) -> list[str]:
-    return [name for name in (shard.rows, shard.events) if name is not None]
 
 
 def _alike(listed: Sequence[Shard]) -> Iterator[list[Shard]]:
@@ -112,11 +112,11 @@ def _alike(listed: Sequence[Shard]) -> Iterator[list[Shard]]:
 
 def _groups(shards: Sequence[Shard], most: int) -> Iterator[list[Shard]]:
     """Shards one after the other while their rows are not too many, about equally many in every group."""
-    total = sum(map(_rows, shards))
+    total = sum(each.n_rows for each in shards)
     share = total / max(-(-total // most), 1)
     group = list[Shard]()
     for shard in shards:
-        if group and sum(map(_rows, group)) + _rows(shard) / 2 > share:
+        if group and sum(each.n_rows for each in group) + shard.n_rows / 2 > share:
             yield group
             group = []
         group.append(shard)
@@ -137,6 +137,7 @@ def _joined(folder: Path, group: list[Shard]) -> Shard:
     events = [(shard.events, shard.events_sha256 or "") for shard in group if shard.events is not None]
     events_sha256 = _write(folder, f"events/{name}", events, EVENTS, fingerprint) if events else None
     rows = [(shard.rows, shard.rows_sha256) for shard in group]
+    tallies = [(shard.tallies, shard.tallies_sha256 or "") for shard in group if shard.tallies is not None]
     return Shard(
         cases=_spans(numbers),
         rows=f"rows/{name}",
@@ -146,6 +147,8 @@ def _joined(folder: Path, group: list[Shard]) -> Shard:
         statuses=dict(sorted(statuses.items())),
         fingerprint=fingerprint,
         detectors=group[0].detectors,
+        tallies=f"tallies/{name}" if tallies else None,
+        tallies_sha256=_write_added(folder, f"tallies/{name}", tallies, fingerprint) if tallies else None,
     )
 
 
@@ -158,6 +161,13 @@ def _write(folder: Path, name: str, parts: list[tuple[str, str]], schema: pa.Sch
             yield read_columns(folder / path, opened, opened.schema_arrow.names)
 
     return write_tables(folder / name, tables())
+
+
+def _write_added(folder: Path, name: str, parts: list[tuple[str, str]], fingerprint: str) -> str:
+    """Write what several tallies add up to; its sha256."""
+    opened = [(p, open_table(folder / p, sha256, schema=TALLIES, fingerprint=fingerprint)) for p, sha256 in parts]
+    found = [read_columns(folder / path, file, TALLIES.names).cast(TALLIES) for path, file in opened]
+    return write_table(folder / name, added(found), fingerprint=fingerprint)
 
 
 def _ends(span: tuple[int, int]) -> tuple[int, int]:
@@ -178,8 +188,8 @@ def remove_unlisted(folder: Path) -> None:
     ResultsError
         The list is damaged, or a folder of tables is a link.
     """
-    known = {name for shard in manifest.shards(folder) for name in _files(shard)}
-    for which in ("rows", "events"):
+    known = {name for shard in manifest.shards(folder) for name, _ in shard.files}
+    for which in TABLES:
         below = folder / which
         if below.is_symlink():
             raise ResultsError(f"{below} is a link; nothing is removed through one. Put the folder itself there")

@@ -3,12 +3,16 @@
 from collections.abc import Iterator
 from pathlib import Path
 
+import pyarrow.parquet as pq
+
 from fddbench.errors import ResultsError
 from fddbench.results import manifest
 from fddbench.results.folder import changed_files, provenance_of
 from fddbench.results.manifest import Shard
+from fddbench.results.ours import TABLES
 from fddbench.results.schema import EVENTS, rows_schema
 from fddbench.results.shards import open_table
+from fddbench.results.tallies import TALLIES
 from fddbench.results.whole import holdings
 
 __all__ = ["wrong_with"]
@@ -29,8 +33,8 @@ def wrong_with(folder: Path) -> Iterator[str]:
     yield from (f"manifest.jsonl, {text}" for text in found.wrong)
     for shard in found.shards:
         yield from _wrong_shard(folder, shard, listed)
-    known = {name for shard in found.shards for name in (shard.rows, shard.events) if name}
-    for which in ("rows", "events"):
+    known = {name for shard in found.shards for name, _ in shard.files}
+    for which in TABLES:
         stray = sorted(f"{which}/{path.name}" for path in (folder / which).glob("*.parquet"))
         yield from (f"{folder / name} is not listed: nobody reads it" for name in stray if name not in known)
     try:
@@ -46,17 +50,21 @@ def _wrong_shard(folder: Path, shard: Shard, listed: list[str]) -> Iterator[str]
     """What is wrong with the files of a line, and whether they hold what it says."""
     if shard.fingerprint not in listed:
         yield f"{folder / shard.rows} was flown by a campaign or program that the folder does not list"
-    files = (
-        (shard.rows, shard.rows_sha256, rows_schema(())),
-        (shard.events, shard.events_sha256, EVENTS),
-    )
-    for name, sha256, schema in files:
-        if name is None or sha256 is None:
-            continue
+    schemas = {"rows": rows_schema(()), "events": EVENTS, "tallies": TALLIES}
+    for name, sha256 in shard.files:
+        schema = schemas[name.split("/")[0]]
         try:
             table = open_table(folder / name, sha256, schema=schema, fingerprint=shard.fingerprint)
         except ResultsError as error:
             yield str(error).split("; ")[0]
             continue
-        if name == shard.rows and table.metadata.num_rows != sum(shard.statuses.values()):
-            yield f"{folder / name} has {table.metadata.num_rows} rows, its line says {sum(shard.statuses.values())}"
+        n = _stands_for(table, name, shard)
+        if n is not None and n != shard.n_rows:
+            yield f"{folder / name} has {n} rows, its line says {shard.n_rows}"
+
+
+def _stands_for(table: pq.ParquetFile, name: str, shard: Shard) -> int | None:
+    """Rows that a table has or counts, where these must be all of its shard."""
+    if name == shard.tallies:
+        return int(sum(table.read(columns=["rows"])["rows"].to_pylist()))
+    return table.metadata.num_rows if name == shard.rows and shard.tallies is None else None

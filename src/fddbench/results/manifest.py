@@ -16,10 +16,11 @@ from typing import Any
 from fddbench.errors import ResultsError
 from fddbench.results.shards import write_bytes
 
-__all__ = ["Shard", "Survey", "append", "keep", "shards", "survey"]
+__all__ = ["SHARD_FILE", "Shard", "Survey", "append", "keep", "shards", "survey"]
 
 _NAME = "manifest.jsonl"
-_FILE = re.compile(r"(rows|events)/[0-9-]+\.parquet")
+SHARD_FILE = re.compile(r"(rows|events|tallies)/[0-9-]+\.parquet")
+"""Names of shards in a folder of results."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,6 +41,8 @@ class Shard:
         Of the campaign and the program that flew it.
     detectors : tuple of str
         Those that it has rows of; empty: all of its campaign.
+    tallies, tallies_sha256 : str or None
+        File of what is counted of all its rows, where its campaign does not keep all; see `fddbench.results.tallies`.
     """
 
     cases: tuple[tuple[int, int], ...]
@@ -50,6 +53,23 @@ class Shard:
     statuses: dict[str, int]
     fingerprint: str
     detectors: tuple[str, ...] = ()
+    tallies: str | None = None
+    tallies_sha256: str | None = None
+
+    @property
+    def files(self) -> tuple[tuple[str, str], ...]:
+        """Its files by their names in the folder, each with its sha256: the rows first."""
+        named = (
+            (self.rows, self.rows_sha256),
+            (self.events, self.events_sha256),
+            (self.tallies, self.tallies_sha256),
+        )
+        return tuple((name, sha256) for name, sha256 in named if name is not None and sha256 is not None)
+
+    @property
+    def n_rows(self) -> int:
+        """Rows that were flown, kept or not."""
+        return sum(self.statuses.values())
 
     @property
     def numbers(self) -> set[int]:
@@ -139,6 +159,8 @@ def _line(shard: Shard) -> bytes:
     content: dict[str, Any] = asdict(shard)
     if not shard.detectors:  # as it was before folders could grow
         del content["detectors"]
+    if shard.tallies is None:
+        del content["tallies"], content["tallies_sha256"]
     text = json.dumps(content)
     return json.dumps(content | {"line_sha256": sha256(text.encode()).hexdigest()}).encode() + b"\n"
 
@@ -151,8 +173,7 @@ def _shard(line: bytes) -> Shard | None:
         entry["cases"] = tuple((int(first), int(count)) for first, count in entry["cases"])
         entry["detectors"] = tuple(str(name) for name in entry.get("detectors", ()))
         shard = Shard(**entry)
-        names = (shard.rows, *([shard.events] if shard.events is not None else []))
-        sound = all(_FILE.fullmatch(name) for name in names) and _line(shard) == line + b"\n"
+        sound = all(SHARD_FILE.fullmatch(name) for name, _ in shard.files) and _line(shard) == line + b"\n"
         return shard if sound else None
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return None

@@ -1,6 +1,6 @@
 """What a run does with a folder that it goes on with: what is damaged is no longer listed, so that it is flown again."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -13,9 +13,7 @@ from fddbench.results.stages import Numbering
 __all__ = ["mend"]
 
 
-def mend(
-    folder: Path, *, provenance: Mapping[str, Any], again: frozenset[str] = frozenset()
-) -> tuple[tuple[Shard, ...], tuple[str, ...]]:
+def mend(folder: Path, *, provenance: Mapping[str, Any]) -> tuple[tuple[Shard, ...], tuple[str, ...]]:
     """Keep what is sound on the list of a folder: the shards of it, and in words what was lost.
 
     No table is deleted; the flights of one that is not listed any more are flown again, to the same rows.
@@ -26,8 +24,6 @@ def mend(
         Folder of results, claimed by the run.
     provenance : mapping
         Of the folder: what shards may carry, and its case table.
-    again : frozenset of str
-        Shards with a row of one of these statuses are to be flown again; they are not lost, but no longer listed.
 
     Raises
     ------
@@ -46,7 +42,7 @@ def mend(
         reason = _wrong(folder, shard, numbering)
         if reason:
             lost.append(reason)
-        elif not again & {status for status, n in shard.statuses.items() if n}:
+        else:
             kept.append(shard)
     manifest.keep(folder, kept)
     return tuple(kept), tuple(lost)
@@ -54,12 +50,8 @@ def mend(
 
 def _wrong(folder: Path, shard: Shard, numbering: Numbering) -> str:
     """What is wrong with a shard, "" for nothing."""
-    files: Sequence[tuple[str | None, str | None]] = (
-        (shard.rows, shard.rows_sha256),
-        (shard.events, shard.events_sha256),
-    )
-    for name, sha256 in files:
-        if name is not None and file_sha256(folder / name) != sha256:
+    for name, sha256 in shard.files:
+        if file_sha256(folder / name) != sha256:
             return f"{name} is damaged or gone"
     try:
         numbering.numbers(shard)

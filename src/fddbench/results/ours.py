@@ -7,18 +7,19 @@ from collections.abc import Collection, Iterator
 from pathlib import Path, PurePosixPath
 
 from fddbench.errors import ResultsError
-from fddbench.results.manifest import survey
+from fddbench.results.manifest import SHARD_FILE, survey
 
-__all__ = ["RESERVED", "clear", "refuse_foreign", "sweep"]
+__all__ = ["RESERVED", "TABLES", "clear", "refuse_foreign", "sweep"]
 
 _JUDGED = "requirements.junit.xml"
 _FIXED = (
     *("campaign.yaml", "manifest.jsonl", "report.html", "summary.parquet", _JUDGED),
     *("provenance.json", ".lock", ".pid", ".token"),
 )
-RESERVED = frozenset({*_FIXED, "rows", "events"})
+TABLES = ("rows", "events", "tallies")
+"""Folders of a folder of results that hold its shards."""
+RESERVED = frozenset({*_FIXED, *TABLES})
 """Names in a folder of results that no file beside a campaign can have when it travels there."""
-_SHARD = re.compile(r"(rows|events)/[0-9-]+\.parquet")
 _LEFT = re.compile(r"(.*/)?(\.[^/]+\.[0-9]+\.tmp|__pycache__/[^/]+\.pyc)")
 """What a crash in the middle of a write leaves behind, and what Python leaves beside the plug-ins."""
 _ASIDE = re.compile(r"\.[^/]+\.[0-9]+\.tmp")
@@ -55,7 +56,7 @@ def refuse_foreign(folder: Path, carried: Collection[str] | None, *, fresh: bool
     recognised = carried is None and _is_listed(folder)
     foreign = [name for name in names if not _is_ours(name, carried or (), anything_frozen=recognised)]
     unknown = carried is None and not _is_blank(folder, names) and not (fresh and recognised)
-    if unknown and (not foreign or any(map(_SHARD.fullmatch, names))):
+    if unknown and (not foreign or any(map(SHARD_FILE.fullmatch, names))):
         _refuse_unknown(folder, names, recognised=recognised)
     if foreign:
         more = ", ..." if len(foreign) > 3 else ""
@@ -72,7 +73,7 @@ def _refuse_unknown(folder: Path, names: Collection[str], *, recognised: bool) -
     ResultsError
         Always.
     """
-    n_shards = sum(bool(_SHARD.fullmatch(name)) for name in names)
+    n_shards = sum(bool(SHARD_FILE.fullmatch(name)) for name in names)
     what = f"{n_shards} shard{'' if n_shards == 1 else 's'}" if n_shards else f"{', '.join(sorted(names)[:3])}"
     path = folder / "provenance.json"
     how = "that is missing" if not path.exists() else "that cannot be read"
@@ -88,8 +89,7 @@ def clear(folder: Path, carried: Collection[str]) -> None:
     frozen = [name for name in carried if _may_be_frozen(name)]
     for name in (
         "manifest.jsonl",
-        "rows",
-        "events",
+        *TABLES,
         "detectors",
         *frozen,
         "campaign.yaml",
@@ -107,7 +107,7 @@ def clear(folder: Path, carried: Collection[str]) -> None:
 
 def sweep(folder: Path) -> None:
     """Remove the files that a killed run was writing aside; who holds the lock of a folder is its only writer."""
-    for below in (folder, folder / "rows", folder / "events", folder / "detectors"):
+    for below in (folder, *(folder / name for name in (*TABLES, "detectors"))):
         if below.is_dir() and not below.is_symlink():
             for path in below.iterdir():
                 if _ASIDE.fullmatch(path.name):
@@ -124,7 +124,7 @@ def _walk(folder: Path) -> Iterator[tuple[str, bool]]:
 
 
 def _is_ours(name: str, carried: Collection[str], *, anything_frozen: bool) -> bool:
-    known = name in _FIXED or bool(_SHARD.fullmatch(name)) or bool(_LEFT.fullmatch(name))
+    known = name in _FIXED or bool(SHARD_FILE.fullmatch(name)) or bool(_LEFT.fullmatch(name))
     return known or (name in carried and _may_be_frozen(name)) or (anything_frozen and name.startswith("detectors/"))
 
 

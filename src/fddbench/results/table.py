@@ -14,6 +14,7 @@ import pyarrow.compute as pc
 from fddbench.errors import PartialResultsWarning, ResultsError, warn
 from fddbench.results.filters import Condition, Filter, filter_of, require_columns
 from fddbench.results.folder import provenance_of
+from fddbench.results.kept import kept_of
 from fddbench.results.manifest import shards
 from fddbench.results.schema import CASE, EVENTS, rows_schema
 from fddbench.results.shards import open_table, read_columns
@@ -41,7 +42,11 @@ _KEYS = (*_ADDRESS, "detector", "event")
 
 
 def load(
-    folder: str | Path, columns: Sequence[str] | None = None, filters: Sequence[Condition] | None = None
+    folder: str | Path,
+    columns: Sequence[str] | None = None,
+    filters: Sequence[Condition] | None = None,
+    *,
+    fair: bool = False,
 ) -> pd.DataFrame:
     """Rows of a campaign, one per case and detector, in the order of cases and of the campaign's detectors.
 
@@ -58,19 +63,21 @@ def load(
         Only rows that meet all of these, ``[("detector", "in", ["glr", "cusum"]), ("p_mass_kg", "<", 190e3)]``; operators are
         ``= == != < <= > >= in``, ``not in``; null meets none but ``("detection_time_s", "=", None)``. The rows that do not
         meet them are never together in memory.
+    fair : bool
+        Only rows that rates may be taken of: where a campaign does not keep all, those of the runs that it keeps whole.
 
     Warns
     -----
     PartialResultsWarning
-        The folder does not hold all flights of its campaign.
+        The folder does not hold all flights of its campaign, or its campaign does not keep all rows.
 
     Raises
     ------
     ResultsError
         No folder of results, one whose list or shard is damaged, one of another schema, or a filter that is none.
     """
-    rows = read_rows(Path(folder), columns, filters)
-    warn_if_partial(Path(folder))
+    rows = read_rows(Path(folder), columns, filters, fair=fair)
+    warn_if_partial(Path(folder), fair=fair)
     return rows
 
 
@@ -85,7 +92,11 @@ def load_events(folder: str | Path) -> pd.DataFrame:
 
 
 def read_rows(
-    folder: Path, columns: Sequence[str] | None = None, filters: Sequence[Condition] | None = None
+    folder: Path,
+    columns: Sequence[str] | None = None,
+    filters: Sequence[Condition] | None = None,
+    *,
+    fair: bool = False,
 ) -> pd.DataFrame:
     """Rows as of `load`, for those who say themselves whether they are all.
 
@@ -97,8 +108,16 @@ def read_rows(
     known = column_names(folder)
     if columns is not None and known:
         require_columns(columns, known)
+    kept = kept_of(folder) if fair else None
+    if kept is not None:
+        filters = [*(filters or ()), ("run", "<", kept.runs)]
     chosen = filter_of(filters, known)
     return _sorted(folder, "rows", columns, chosen)
+
+
+def _fair(folder: Path, known: Sequence[str]) -> Filter | None:
+    kept = kept_of(folder)
+    return filter_of([("run", "<", kept.runs)], known) if kept else None
 
 
 def column_names(folder: Path) -> list[str]:
@@ -113,29 +132,29 @@ def column_names(folder: Path) -> list[str]:
 
 
 def read_in_parts(folder: Path, columns: Sequence[str]) -> Iterator[pd.DataFrame]:
-    """Rows as of `read_rows`: all at once, or where they are many those of one detector after the other.
+    """Rows as of `read_rows` of a folder that keeps all: at once, or where they are many those of one detector at a time.
 
     Raises
     ------
     ResultsError
         As `load`.
     """
-    if sum(sum(shard.statuses.values()) for shard in shards(folder)) <= _MANY:
+    if sum(shard.n_rows for shard in shards(folder)) <= _MANY:
         yield _sorted(folder, "rows", columns)
         return
     for detector in provenance_of(folder)["designs_sha256"]:
         yield _sorted(folder, "rows", columns, filter_of([("detector", "=", detector)], ["detector"]))
 
 
-def read_events(folder: Path, columns: Sequence[str] | None = None) -> pd.DataFrame:
-    """Events as of `load_events`, for those who say themselves whether they are all; only some columns.
+def read_events(folder: Path, columns: Sequence[str] | None = None, *, fair: bool = False) -> pd.DataFrame:
+    """Events as of `load_events`, for those who say themselves whether they are all; only some columns; `fair` as of `load`.
 
     Raises
     ------
     ResultsError
         As `load`.
     """
-    return _sorted(folder, "events", columns)
+    return _sorted(folder, "events", columns, _fair(folder, EVENTS.names) if fair else None)
 
 
 def named(table: pa.Table) -> pa.Table:
@@ -144,9 +163,13 @@ def named(table: pa.Table) -> pa.Table:
     return table.add_column(0, CASE, pc.binary_join_element_wise(*parts, "/"))
 
 
-def warn_if_partial(folder: Path) -> None:
-    """Warn where a folder does not hold all flights of its campaign."""
-    found = holdings(folder)
+def warn_if_partial(folder: Path, *, fair: bool = False, counted: bool = False) -> None:
+    """Warn where a folder does not hold all flights of its campaign, or does not keep all rows, unless all are counted."""
+    found, kept = holdings(folder), kept_of(folder)
+    if kept is not None and not counted:
+        n = sum(shard.n_rows for shard in shards(folder))
+        what = f"only {kept.first} are used" if fair else f"only {kept} are kept"
+        warn(f"{folder}: of {n} rows {what}; fddbench.summary(folder) counts all", PartialResultsWarning)
     if found.partial:
         warn(
             f"{folder} is partial, it holds {found.sentence}; run the campaign again to fly the rest",
@@ -252,7 +275,6 @@ def files(folder: Path, which: str) -> Iterator[tuple[Path, str, str]]:
                 f"{folder / shard.rows} was flown by a campaign or program that the folder does not list; fly the campaign "
                 "anew with --fresh"
             )
-        files = {"rows": (shard.rows, shard.rows_sha256), "events": (shard.events, shard.events_sha256)}
-        name, sha256 = files[which]
-        if name is not None and sha256 is not None:
-            yield folder / name, sha256, shard.fingerprint
+        for name, sha256 in shard.files:
+            if name.startswith(f"{which}/"):
+                yield folder / name, sha256, shard.fingerprint

@@ -33,16 +33,18 @@ def code_digest(files: Mapping[str, str]) -> str:
 
 
 def unlisted(folder: Path, files: Mapping[str, str]) -> list[str]:
-    """Modules that lie where plug-ins of a folder of results would import them from and are not among its frozen files."""
-    return sorted(name for name in _modules(folder) if name not in files)
+    """Code that lies where plug-ins of a folder of results would find it and is not among its frozen files."""
+    return sorted(name for name in _code(folder) if name not in files)
 
 
-def _modules(folder: Path) -> Iterator[str]:
+def _code(folder: Path) -> Iterator[str]:
+    """Modules that a plug-in would import, and all C: a folder of it beside a design is flown whole."""
     for below in (folder, folder / "detectors"):
         with suppress(OSError):
             yield from (
                 path.relative_to(folder).as_posix() for path in below.iterdir() if path.suffix in {".py", ".so"}
             )
+    yield from (path.relative_to(folder).as_posix() for path in folder.rglob("*.[ch]"))
 
 
 def remember(digest: str) -> None:

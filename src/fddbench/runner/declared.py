@@ -14,7 +14,7 @@ from fddbench.metrics.scoring import SITES, Scoring
 from fddbench.runner.assembly import Assembly, Batch
 from fddbench.runner.beside import beside
 from fddbench.runner.flight import Flyer, Outcome
-from fddbench.runner.work import rows_of
+from fddbench.runner.rows import rows_of
 
 __all__ = ["declared_rows"]
 

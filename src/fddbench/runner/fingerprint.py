@@ -1,6 +1,6 @@
 """The fingerprint of a campaign and of the program that flies it here, and the campaign that is frozen in a folder."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import nullcontext
 from hashlib import sha256
 from pathlib import Path
@@ -16,10 +16,22 @@ from fddbench.plugin_files import none_run
 from fddbench.results import trust
 from fddbench.results.fingerprint import Fingerprint, differences
 from fddbench.results.folder import changed_files, provenance_of
+from fddbench.results.kept import Kept
 from fddbench.results.provenance import collect, version_of
 from fddbench.results.schema import SCHEMA_VERSION
+from fddbench.results.shards import file_sha256
+from fddbench.results.stages import stages_in
 
-__all__ = ["fingerprint_of", "frozen", "frozen_to_fly", "other_program", "provenance_for", "trusted"]
+__all__ = [
+    "fingerprint_of",
+    "frozen",
+    "frozen_before",
+    "frozen_to_fly",
+    "kept_by",
+    "other_program",
+    "provenance_for",
+    "trusted",
+]
 
 _REMEDY = "Run the campaign again on this folder: it puts the files back."
 
@@ -56,14 +68,24 @@ def provenance_for(plan: Plan, fingerprint: Fingerprint) -> dict[str, object]:
     campaign = plan.campaign
     notes: Any = getattr(plan.plant, "notes", None)
     logs = {} if notes is None else {"logs": notes(campaign.sample_s)}
-    return logs | collect(
-        fingerprint,
-        campaign=campaign.name,
-        designs_sha256={design.name: design.sha256 for design in campaign.designs},
-        seed=campaign.seed,
-        flights={planned.name: planned.n_cases for planned in plan.scenarios},
-        text=campaign.text.encode(),
+    kept = kept_by(campaign)
+    return (
+        logs
+        | (kept.plain() if kept else {})
+        | collect(
+            fingerprint,
+            campaign=campaign.name,
+            designs_sha256={design.name: design.sha256 for design in campaign.designs},
+            seed=campaign.seed,
+            flights={planned.name: planned.n_cases for planned in plan.scenarios},
+            text=campaign.text.encode(),
+        )
     )
+
+
+def kept_by(campaign: Campaign) -> Kept | None:
+    """Which rows a campaign keeps; None: all."""
+    return None if campaign.keep == "all" else Kept(runs=campaign.kept_runs, failures=campaign.keep == "failures")
 
 
 def frozen(folder: Path) -> Campaign:
@@ -86,6 +108,18 @@ def frozen(folder: Path) -> Campaign:
     if other:
         warn(f"{folder} was flown by another program ({other}); flights may differ from its rows", OtherProgramWarning)
     return campaign
+
+
+def frozen_before(folder: Path) -> Campaign:
+    """Campaign of a folder that is to grow: of one whose growth was cut off before its campaign was frozen, the one before.
+
+    Warns and raises as `frozen`.
+    """
+    provenance = provenance_of(folder)
+    stages = stages_in(provenance)
+    before = stages[-2].campaign_yaml_sha256 if len(stages) > 1 else None
+    cut_off = changed_files(folder) == ["campaign.yaml"] and file_sha256(folder / "campaign.yaml") == before
+    return _parsed(folder, provenance) if cut_off else frozen(folder)
 
 
 def other_program(folder: Path, campaign: Campaign) -> str:
@@ -128,6 +162,11 @@ def _read(folder: Path, *, flown: bool = False) -> Campaign:
     provenance, changed = provenance_of(folder), changed_files(folder)
     if changed:
         raise ResultsError(f"{folder / changed[0]} is not the file of these results, or is gone. {_REMEDY}")
+    return _parsed(folder, provenance, flown=flown)
+
+
+def _parsed(folder: Path, provenance: Mapping[str, Any], *, flown: bool = False) -> Campaign:
+    """Campaign of frozen files that are as they were written; a plug-in among them is run where it is trusted."""
     code = provenance["files"]
     runs = flown or (bool(trust.code_digest(code)) and trusted(folder))
     asked: list[str] = []

@@ -16,7 +16,7 @@ from fddbench.results.lock import locked
 from fddbench.results.stages import Stage, stages_in
 from fddbench.runner.assembling import assemble
 from fddbench.runner.fingerprint import fingerprint_of, provenance_for
-from fddbench.runner.work import schemas_of
+from fddbench.runner.rows import schemas_of
 
 __all__ = ["as_far_as", "grow_to"]
 
@@ -29,22 +29,38 @@ def grow_to(folder: Path, old: Campaign, new: Campaign) -> None:
     ResultsError
         What decides rows that are there differs, which is told.
     """
-    was, now = planned(old), planned(new)
-    there, here = provenance_of(folder), fingerprint_of(new)
-    if Fingerprint.of(there).sha256 == here.sha256:  # a crash came before the campaign was frozen
-        with locked(folder):
+    was, now, here = planned(old), planned(new), fingerprint_of(new)
+    with locked(folder):  # from the first look on: what is written stands on what was read
+        there = provenance_of(folder)
+        if Fingerprint.of(there).sha256 == here.sha256:  # a crash came before the campaign was frozen
             put_back(folder, new.files())
-        return
-    told = [*in_the_way(was, now), *differences(Fingerprint.of(there), as_far_as(Fingerprint.of(there), here))]
+            return
+        _require_growth(folder, there, was, now, here)
+        provenance = _grown(there, was, now, provenance_for(now, here), list(schemas_of(assemble(new))[0].names))
+        grow(folder, files=new.files(), provenance=provenance)
+
+
+def _require_growth(folder: Path, there: Mapping[str, Any], was: Plan, now: Plan, here: Fingerprint) -> None:
+    """Refuse what would change rows that are there, and a folder that is not of the campaign it grows from.
+
+    Raises
+    ------
+    ResultsError
+        Either of them.
+    """
+    flown = Fingerprint.of(there)
+    told = [*in_the_way(was, now), *differences(flown, as_far_as(flown, here))]
     if told:
         raise ResultsError(
             f"{folder} cannot be extended to this campaign, because rows that are there would not be its rows:\n"
             + "\n".join(f"  {line}" for line in told)
             + "\nFly it into another folder instead: fddbench run ... --out DIR"
         )
-    with locked(folder):
-        provenance = _grown(there, was, now, provenance_for(now, here), list(schemas_of(assemble(new))[0].names))
-        grow(folder, files=new.files(), provenance=provenance)
+    if flown.campaign_sha256 != was.campaign.sha256:  # its stages are numbered for the larger one
+        raise ResultsError(
+            f"{folder} is being extended to another campaign, or that was cut off; ask for the one that was begun first, then "
+            "extend it further"
+        )
 
 
 def as_far_as(there: Fingerprint, here: Fingerprint) -> Fingerprint:

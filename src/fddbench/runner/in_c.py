@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import asdict, replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -24,7 +24,7 @@ from fddbench.exported.symbols import library, require_symbols
 from fddbench.interfaces import Bus, Verdict
 from fddbench.runner.assembly import Assembly
 
-__all__ = ["InC", "as_c", "code_of_design", "in_c_words", "require_allowed"]
+__all__ = ["InC", "as_c", "code_of_design", "in_c_words", "loads_in_c", "require_allowed"]
 
 
 @record
@@ -137,6 +137,18 @@ def in_c_words(name: str, own: Adapted, bus: Bus) -> str:
         return str(load_in_c(interface, sources(interface, own.at_every_sample.detector), by))
     except FddbenchError as error:
         return f"in C: not known, {error}"
+
+
+def loads_in_c(flown: Mapping[str, InC]) -> dict[str, dict[str, Any]]:
+    """What exported detectors take, measured by the compiler that they fly with; without those that nobody could measure."""
+    found = {}
+    for name, own in flown.items():
+        if own.exported:
+            try:
+                found[name] = asdict(load_in_c(own.interface, own.files, own.by))
+            except FddbenchError:
+                continue  # a machine without binutils flies all the same
+    return found
 
 
 def code_of_design(design: Design, own: Adapted, bus: Bus) -> Adapted:

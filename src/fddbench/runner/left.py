@@ -9,7 +9,9 @@ from zlib import crc32
 import numpy as np
 import numpy.typing as npt
 
+from fddbench.results import manifest
 from fddbench.results.folder import provenance_of
+from fddbench.results.manifest import Shard
 from fddbench.results.mending import mend
 from fddbench.results.stages import Numbering
 
@@ -40,12 +42,15 @@ class Left:
         Flights in them, and flights that are asked for.
     statuses : Counter
         Rows that are there by status, asked for or not.
+    wanted : array of bool, optional
+        The rows that are asked for, with those of the shards that are flown again.
     """
 
     parts: tuple[Part, ...]
     n_left: int
     n_wanted: int
     statuses: Counter[str]
+    wanted: Wanted | None
 
 
 def left_in(
@@ -62,13 +67,19 @@ def left_in(
     wanted : array of bool, optional
         The rows that are asked for; all of them by default.
     again : frozenset of str
-        Statuses of rows that are flown again, with the flights of their shards.
+        Statuses of rows that are flown again where any row of their shards is asked for, with all flights of these.
     """
     provenance = provenance_of(folder)
-    done, lost = mend(folder, provenance=provenance, again=again)
+    done, lost = mend(folder, provenance=provenance)
     for what in lost:
         say(f"{folder}: {what}; its flights are flown again")
     numbering = Numbering(provenance)
+    anew = [shard for shard in done if _is_flown_again(shard, numbering, wanted, again)]
+    if anew:
+        dropped = {shard.rows for shard in anew}
+        done = tuple(shard for shard in done if shard.rows not in dropped)
+        manifest.keep(folder, done)
+        wanted = None if wanted is None else wanted | (numbering.held(anew) > 0)
     lacks = numbering.held(done) == 0
     n_wanted = numbering.n_cases if wanted is None else int(wanted.any(axis=0).sum())
     if wanted is not None:
@@ -77,7 +88,17 @@ def left_in(
     for shard in done:
         statuses.update(shard.statuses)
     parts = _parts(lacks, numbering.detectors, provenance["fingerprints"])
-    return Left(parts=parts, n_left=int(lacks.any(axis=0).sum()), n_wanted=n_wanted, statuses=statuses)
+    return Left(parts=parts, n_left=int(lacks.any(axis=0).sum()), n_wanted=n_wanted, statuses=statuses, wanted=wanted)
+
+
+def _is_flown_again(shard: Shard, numbering: Numbering, wanted: Wanted | None, again: frozenset[str]) -> bool:
+    """Whether a shard has a row of one of these statuses, and any row that is asked for."""
+    if not again & {status for status, n in shard.statuses.items() if n}:
+        return False
+    if wanted is None:
+        return True
+    of = np.isin(numbering.detectors, numbering.detectors_of(shard))
+    return bool(wanted[:, numbering.numbers(shard)][of].any())
 
 
 def _parts(lacks: Wanted, names: tuple[str, ...], fingerprints: list[str]) -> tuple[Part, ...]:

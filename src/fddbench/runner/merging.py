@@ -1,6 +1,6 @@
 """Several folders of results of campaigns that agree become one; rows that two of them hold must be the same bits."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from zlib import crc32
@@ -17,18 +17,19 @@ from fddbench.campaign.plan import Plan
 from fddbench.campaign.plan import plan as planned
 from fddbench.errors import ResultsError
 from fddbench.results import manifest
+from fddbench.results.compacting import ENOUGH, compact, require_sound
 from fddbench.results.fingerprint import Fingerprint, differences
 from fddbench.results.folder import claim, provenance_of, refuse_foreign
 from fddbench.results.lock import locked
 from fddbench.results.manifest import Shard
 from fddbench.results.schema import CASE
-from fddbench.results.shards import write_table
 from fddbench.results.table import as_of_today, read_events, read_rows
 from fddbench.runner.assembling import assemble
-from fddbench.runner.chunks import spans
 from fddbench.runner.fingerprint import fingerprint_of, provenance_for
 from fddbench.runner.growing import as_far_as
-from fddbench.runner.work import schemas_of
+from fddbench.runner.joining import joinable, joined
+from fddbench.runner.rows import schemas_of
+from fddbench.runner.writing import write_shard
 
 __all__ = ["merge_into"]
 
@@ -60,12 +61,28 @@ def merge_into(folder: Path, parts: Mapping[Path, Campaign], whole: Campaign) ->
     refuse_foreign(folder)
     if (folder / "provenance.json").exists():
         raise ResultsError(f"{folder} holds results already; name another folder with --output")
+    if joinable(list(parts), here.sha256):
+        for path in parts:
+            require_sound(path, manifest.shards(path))
+        _write(folder, whole, now, here, joined(folder, list(parts)))
+        return
+    if whole.keep != "all":
+        raise ResultsError(
+            "these campaigns do not keep all their rows: only parts of one campaign, flown by one program and none twice, can "
+            "be put together. Fly the whole into one folder, or with --set keep=all"
+        )
     tables = [_read(path, planned(own), now) for path, own in parts.items()]
     rows, events = (_together([getattr(each, kind) for each in tables], kind) for kind in ("rows", "events"))
+    _write(folder, whole, now, here, _shards(folder, now, here.sha256, rows, events))
+
+
+def _write(folder: Path, whole: Campaign, plan: Plan, here: Fingerprint, shards: Iterable[Shard]) -> None:
+    """Make a folder of results of these shards, which are written as they are asked for."""
     with locked(folder):
-        claim(folder, files=whole.files(), provenance=provenance_for(now, here), fresh=False)
-        for shard in _shards(folder, now, here.sha256, rows, events):
+        claim(folder, files=whole.files(), provenance=provenance_for(plan, here), fresh=False)
+        for shard in shards:
             manifest.append(folder, shard)
+        compact(folder, least=ENOUGH)
 
 
 def _in_the_way(path: Path, was: Plan, now: Plan, here: Fingerprint) -> list[str]:
@@ -119,26 +136,13 @@ def _shards(folder: Path, plan: Plan, fingerprint: str, rows: pa.Table, events: 
     for k in range(kinds.shape[1]):
         names = tuple(name for name, has in zip(detectors, kinds[:, k], strict=True) if has)
         cases = there[which.ravel() == k]
-        label = "" if len(names) == len(detectors) else f"-{crc32(repr(names).encode()):010d}"
+        label = "" if len(names) == len(detectors) else f"{crc32(repr(names).encode()):010d}"
         for part in np.array_split(cases, -(-len(cases) * len(names) // _SHARD_ROWS)):
-            own = {kind: table.filter(pa.array(np.isin(at, part))) for kind, table, at in
-                   (("rows", rows, numbers), ("events", events, its))}  # fmt: skip
-            name = f"{part[0]:08d}-{part[-1]:08d}-{len(part)}{label}.parquet"
-            sha256 = {
-                kind: write_table(folder / kind / name, table, fingerprint=fingerprint) if len(table) else None
-                for kind, table in own.items()
-            }
-            counts = own["rows"]["status"].value_counts().to_pylist()
-            yield Shard(
-                cases=spans(part),
-                rows=f"rows/{name}",
-                rows_sha256=str(sha256["rows"]),
-                events=f"events/{name}" if sha256["events"] else None,
-                events_sha256=sha256["events"],
-                statuses=dict(sorted((entry["values"], entry["counts"]) for entry in counts)),
-                fingerprint=fingerprint,
+            mine, theirs = (table.filter(pa.array(np.isin(at, part))) for table, at in ((rows, numbers), (events, its)))
+            yield write_shard(
+                folder, part, mine, theirs, fingerprint=fingerprint, label=label,
                 detectors=() if len(names) == len(detectors) else names,
-            )
+            )  # fmt: skip
 
 
 def _numbers(plan: Plan, table: pa.Table) -> Cases:

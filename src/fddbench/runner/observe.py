@@ -13,7 +13,7 @@ from fddbench.metrics.distinct import DistinctFlights, distinct_flights
 from fddbench.runner.assembly import Assembly
 from fddbench.runner.chunks import CHUNK, COMPILED_CHUNK
 from fddbench.runner.flight import Flyer
-from fddbench.runner.work import rows_and_events
+from fddbench.runner.rows import rows_and_events
 
 __all__ = ["HealthySignals", "healthy_flights", "healthy_signals"]
 

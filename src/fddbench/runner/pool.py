@@ -26,23 +26,23 @@ def fly_all(work: Work, chunks: Sequence[Spans], *, engine: Engine, threads: boo
     Raises
     ------
     FddbenchError
-        Workers died three times over, or cannot fly this campaign; nothing finished is lost.
+        Workers died three times over before anything more was finished, or cannot fly this campaign; nothing finished is lost.
     """
     if engine.alone(len(chunks)):
         yield from (fly_and_write(work, chunk) for chunk in chunks)
         return
-    left = list(chunks)
+    left, deaths = list(chunks), 0
     with pool_of(engine, threads=threads) as pool:
-        for _ in range(_ATTEMPTS):
+        while deaths < _ATTEMPTS:
             try:
                 for shard in _once(work, left, engine, pool):
-                    left = [chunk for chunk in left if chunk != shard.cases]
+                    left, deaths = [chunk for chunk in left if chunk != shard.cases], 0
                     yield shard
                 return
             except worker_died():
-                continue
+                deaths += 1
     raise FddbenchError(
-        f"workers died {_ATTEMPTS} times, {len(left)} chunks are left (is there enough memory?).\n"
+        f"workers died {_ATTEMPTS} times in a row, {len(left)} chunks are left (is there enough memory?).\n"
         "Run the same command again to continue, with --jobs 1 to see what happens."
     )
 

@@ -20,8 +20,12 @@ from fddbench.runner.firsts import first_flights
 from fddbench.runner.flight import Flyer
 from fddbench.runner.given_up import GivenUp
 from fddbench.runner.in_c import InC
+from fddbench.runner.supervised.verdicts import Supervised
 
 __all__ = ["rehearse", "rehearsed"]
+
+_DEATHS = 3
+"""How often sound flights are flown again whose process was ended; then nothing is said of the detector."""
 
 _HANGS = 2
 """First flights that end with `timeout` after which a detector is given up; part of the result."""
@@ -133,8 +137,20 @@ def _sound_company(flyer: Flyer, name: str, most: int) -> DetectorFlight | None:
     together = _heard(flyer, assembly, name, batch)
     if not together.over:
         return together
-    sound = np.flatnonzero([not error for error in together.finish()[1]])
-    return _heard(flyer, assembly, name, batch.take(sound)) if len(sound) else None
+    for _ in range(_DEATHS):
+        batch = batch.take(np.flatnonzero([not error for error in together.finish()[1]]))
+        if not len(batch.cases):
+            break
+        together = _heard(flyer, assembly, name, batch)
+        if not _ended_with_its_process(together):
+            return together
+    return None
+
+
+def _ended_with_its_process(flight: DetectorFlight) -> bool:
+    """Whether flights ended because their process did: a machine that is short of memory says nothing of the detector."""
+    verdicts = flight.verdicts
+    return isinstance(verdicts, Supervised) and bool(len(verdicts.lost) or len(verdicts.doubt))
 
 
 def _company(assembly: Assembly, most: int) -> Batch:

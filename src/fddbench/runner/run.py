@@ -1,6 +1,7 @@
 """Runs a campaign into a folder of results, and goes on where an earlier run stopped."""
 
 import time
+import warnings
 from collections import Counter
 from collections.abc import Callable, Generator
 from contextlib import nullcontext
@@ -19,13 +20,16 @@ from fddbench.runner.chunks import CHUNK, COMPILED_CHUNK, OPAQUE_CHUNK, cut, spa
 from fddbench.runner.engines import Engine
 from fddbench.runner.fingerprint import fingerprint_of, provenance_for
 from fddbench.runner.flight import Flyer
-from fddbench.runner.in_c import InC
-from fddbench.runner.left import Part, Wanted, left_in
+from fddbench.runner.in_c import InC, loads_in_c
+from fddbench.runner.left import Left, Part, Wanted, left_in
 from fddbench.runner.pool import fly_all
 from fddbench.runner.rehearsal import rehearsed
 from fddbench.runner.work import Work, lent
 
 __all__ = ["Progress", "RunReport", "run_campaign"]
+
+_CANCELLED = ".*still being processed by the workers have been cancelled"
+"""What joblib says where Ctrl-C ends a run, in a warning; the run says it itself, with a count."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -103,7 +107,7 @@ def run_campaign(
     backend : {"auto", "llvm", "numpy"}, or one of them and "+c"
         See `fddbench.runner.flight.Flyer`; no part of any result.
     wanted, retry_failed : array of bool, optional, and bool
-        Fly these rows only, (n_detectors, n_cases), see `fddbench.campaign.selection`; fly shards again that have failed rows.
+        Fly these rows only, (n_detectors, n_cases); fly again the shards that have failed rows and any of these.
     progress, notice : callable
         Told at the beginning and after every chunk; told what slows the run down, and what was damaged and is flown again.
 
@@ -127,8 +131,8 @@ def run_campaign(
         # workers of an earlier run may still be there, in the working folder of that time
         work = Work(folder=str(folder.absolute()), fingerprint=fingerprint.sha256, backend=backend)
         interrupted = any(_fly_part(flyer, work, part, engine=own, chunk=chunk, told=told) for part in left.parts)
-        if interrupted:  # perhaps between the listing of a shard and its count
-            told.flown = told.total - left_in(folder, say, wanted=wanted).n_left - told.before
+        if interrupted:
+            told.anew(left_in(folder, say, wanted=left.wanted))
         else:
             _few_files(folder, fingerprint.sha256, say)
     return _report(folder, told, interrupted=interrupted, wall_s=time.monotonic() - begun)
@@ -147,9 +151,10 @@ def _report(folder: Path, told: "_Told", *, interrupted: bool, wall_s: float) ->
 
 
 def in_c(flyer: Flyer) -> dict[str, object]:
-    """Which detectors fly as C, and who compiled it, for the provenance; nothing where none does."""
+    """Which detectors fly as C, who compiled it and what it takes, for the provenance; nothing where none does."""
     flown = {name: own.detector for name, own in flyer.assembly.detectors.items() if isinstance(own.detector, InC)}
-    return {"flown_as_c": {name: str(each.by) for name, each in flown.items()}} if flown else {}
+    loads = loads_in_c(flown)
+    return {"flown_as_c": {name: str(each.by) for name, each in flown.items()}, "load_in_c": loads} if flown else {}
 
 
 def _few_files(folder: Path, fingerprint: str, say: Callable[[str], None]) -> None:
@@ -189,6 +194,10 @@ class _Told:
         self.statuses.update(shard.statuses)
         self.tell()
 
+    def anew(self, there: Left) -> None:
+        """Count what is there; Ctrl-C may have come between the listing of a shard and its count."""
+        self.flown, self.statuses = self.total - there.n_left - self.before, there.statuses
+
     def tell(self) -> None:
         """Say how far it is."""
         if self.progress is not None:
@@ -217,5 +226,7 @@ def _fly(folder: Path, shards: Generator[manifest.Shard, None, None], told: _Tol
     except KeyboardInterrupt:
         return True
     finally:
-        shards.close()
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", message=_CANCELLED)
+            shards.close()
     return False

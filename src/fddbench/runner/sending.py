@@ -90,7 +90,7 @@ def fly_anywhere(own: Errand, cases: Spans) -> Shard | Sent | Unseen | FddbenchE
             return Unseen(cases)
         folder = _copy(own.token, own.files)
         shard = fly_and_write(replace(own.work, folder=str(folder)), cases)
-        paths = [folder / name for name in (shard.rows, shard.events) if name]
+        paths = [folder / name for name, _ in shard.files]
         sent = tuple((path.relative_to(folder).as_posix(), path.read_bytes()) for path in paths)
         for path in paths:
             path.unlink()
@@ -107,7 +107,7 @@ def keep(folder: Path, sent: Sent) -> Shard:
     ResultsError
         It is not what the worker wrote.
     """
-    said = {sent.shard.rows: sent.shard.rows_sha256, sent.shard.events: sent.shard.events_sha256}
+    said = dict(sent.shard.files)
     for name, data in sent.files:
         if said.get(name) != sha256(data).hexdigest():
             raise ResultsError(f"{name} was damaged on its way from a worker; run the campaign again on {folder}")

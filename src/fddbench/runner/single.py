@@ -6,17 +6,18 @@ from dataclasses import replace
 from pathlib import Path
 
 from fddbench import gallery
-from fddbench.campaign.load import read_campaign
+from fddbench.campaign.reading.overrides import ALONE
 from fddbench.errors import FddbenchError
 from fddbench.runner.assembling import assemble
 from fddbench.runner.assembly import Assembly
+from fddbench.runner.supervised.trial import read_safely
 
 __all__ = ["assembly_with"]
 
 
 def assembly_with(detector: str, campaign: Path | None) -> Assembly:
     """Assembly of a campaign with a design, or with a variant of one that the campaign sweeps."""
-    own = read_campaign(campaign) if campaign else None
+    own = read_safely(campaign) if campaign else None
     swept = [design for design in own.designs if design.name == detector and design.swept] if own else []
     if own is None or not swept:
         return _one_detector(detector, campaign)
@@ -29,7 +30,7 @@ def _one_detector(design: str, campaign: Path | None) -> Assembly:
     first: FddbenchError | None = None
     for path in [campaign] if campaign else shipped:
         try:
-            return assemble(read_campaign(path, [f"detectors=[{_quoted(design)}]"]))
+            return assemble(read_safely(path, [f"detectors=[{_quoted(design)}]", *ALONE]))
         except FddbenchError as error:
             first = first or error
     assert first is not None

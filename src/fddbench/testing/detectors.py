@@ -2,10 +2,11 @@
 
 from pathlib import Path
 
+from fddbench.campaign.reading.overrides import ALONE
 from fddbench.errors import DesignError
 from fddbench.runner.flight import Flyer
 from fddbench.runner.rehearsal import rehearse
-from fddbench.runner.work import rows_and_events
+from fddbench.runner.rows import rows_and_events
 from fddbench.testing.campaigns import different_bits, require, some_flights
 
 __all__ = ["check_detector"]
@@ -36,7 +37,7 @@ def check_detector(design: str, *, campaign: str | Path = "smoke") -> None:
     --------
     >>> check_detector("voting_monitor")
     """
-    assembly, batch = some_flights(campaign, [f"detectors=[{design}]"])
+    assembly, batch = some_flights(campaign, [f"detectors=[{design}]", *ALONE])
     detector = assembly.detectors[design]
     unknown = set(detector.watches) - set(assembly.loop.bus.names)
     require(not unknown, f"{design} watches {sorted(unknown)}, which are no sites of this benchmark")

@@ -7,7 +7,7 @@ from fddbench.api import replaying
 from fddbench.campaign.load import read_campaign
 from fddbench.runner.assembling import assemble
 from fddbench.runner.flight import Flyer
-from fddbench.runner.work import rows_and_events
+from fddbench.runner.rows import rows_and_events
 
 SURFACES = [f"surface_deg_{j + 1}" for j in range(13)]
 SINGLE = ("phi_deg", "beta_deg", "p_deg_s", "v_tas_m_s", "mass_kg", "x_cg_ratio", "altitude_ft", "v_cas_kt")

@@ -190,12 +190,30 @@ def test_a_px4_log_flies_compiled_and_plain_alike(folder, tmp_path):
     assert "estimated error" in described(path)
 
 
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        ("largest_gap_s: 9\n", "'largest_gap_s' stands twice in this block, first at line [1-9]"),
+        ("truth: {r_true_deg_s: {from: a}, r_true_deg_s: {from: b}}\n", "'r_true_deg_s' stands twice"),
+    ],
+)
+def test_a_key_that_stands_twice_in_a_mapping_is_refused(folder, more, said):
+    path = folder / "logs.yaml"
+    path.write_text(path.read_text() + more)
+    with pytest.raises(CampaignError, match=rf"logs.yaml.*{said}.*line {path.read_text().count(chr(10))}, column"):
+        read_campaign(folder / "logged.yaml")
+
+
 def test_too_many_numbers_fly_in_python_with_the_same_bits(folder, monkeypatch):
     path = folder / "logged.yaml"
     before, _ = logging.rows_of(path)
+    assert "in Python" not in described(path)
     monkeypatch.setattr("fddbench.benchmarks.recorded.loop.MOST_NUMBERS", 100)
     assembly = assemble(read_campaign(path))
     assert not Flyer(assembly).compiled
+    assert "All fly in Python: the logs hold 1,503 numbers, at most 100 are compiled" in " ".join(
+        described(path).split()
+    )
     pd.testing.assert_frame_equal(logging.rows_of(path)[0], before)
 
 

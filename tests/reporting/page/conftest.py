@@ -6,7 +6,7 @@ from fddbench.metrics.alarms import summarize_alarms
 from fddbench.reporting.page.answer import answer
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.page.courses import courses, loudest
-from fddbench.reporting.page.ranking import beside_best, ranking
+from fddbench.reporting.page.ranking import ranking, second_beside_best
 
 
 @pytest.fixture
@@ -33,8 +33,7 @@ def sentence():
     def say(rows, swept=(), **more):
         columns = Columns(rows)
         ranks = ranking(columns, summarize_alarms(rows), **more)
-        known = [line for line in ranks if line.decided]
-        second = beside_best(columns, known[0].number, known[1].number) if len(known) > 1 else None
+        second = second_beside_best(columns, ranks)
         said = answer(ranks, second, courses=courses(columns, swept), loudest=loudest(columns, ranks))
         return "".join(text for text, _ in said)
 

@@ -7,13 +7,15 @@ FAULTS = ("jam_a", "jam_b")
 def test_all_right_is_no_contest(told, sentence):
     text = sentence(told(FAULTS, TWO, 20, lambda *_: "right"))
     assert text.startswith("Both detectors are right in time in all 40 decided faulty flights (at least ")
-    assert "It fails in none of them. It never declares a healthy site." in text
+    assert "fails" not in text
+    one = sentence(told(FAULTS, ("one",), 20, lambda *_: "right"))
+    assert "It fails in no flight. It never declares a healthy site." in one
 
 
 def test_all_wrong_is_no_contest_either(told, sentence):
     text = sentence(told(FAULTS, (*TWO, "third"), 20, lambda *_: "wrong_site"))
     assert text.startswith(
-        "All 3 detectors are never right in time in 40 decided faulty flights. It fails most in jam_a: 20 of 20"
+        "All 3 detectors are never right in time in 40 decided faulty flights. one fails most in jam_a: 20 of 20"
     )
     assert "In 40 flights it declares a healthy site." in text
 
@@ -21,6 +23,11 @@ def test_all_wrong_is_no_contest_either(told, sentence):
 def test_a_tie_is_not_decided(told, sentence):
     half = told(FAULTS, TWO, 20, lambda s, d, run: "right" if run < 10 else "missed")
     assert sentence(half).startswith("Not decided: one and other are right in the same flights, 50.0 % of 40")
+    four = told(
+        FAULTS, (*TWO, "third", "fourth"), 20, lambda s, d, run: "right" if run < 10 and d != "fourth" else "missed"
+    )
+    assert " and other are right in the same flights, third as often, 50.0 % of 40" in sentence(four)
+    assert "). one fails most in jam_a: 10 of 20 flights." in sentence(half)
     apart = told(FAULTS, TWO, 20, lambda s, d, run: "right" if (run < 10) == (d == "one") else "missed")
     assert sentence(apart).startswith(
         "Not decided between one and other, 50.0 and 50.0 % of faulty flights right in time (p = 1)"
@@ -67,6 +74,19 @@ def test_what_is_swept_is_answered_first(told, sentence):
     rows["p_gust_scale_ratio"] = (rows["run"].to_numpy(dtype=int) % 2).astype(float)
     text = sentence(rows, swept=("p_gust_scale_ratio",))
     assert "From gust scale 0 to 1 right goes from 100 to 0 % with one, and from 100 to 100 % with other." in text
+
+
+def test_what_changes_for_nobody_is_not_told(told, sentence):
+    rows = told(FAULTS, TWO, 40, lambda s, d, run: "missed" if d == "one" else "right")
+    rows["p_gust_scale_ratio"] = (rows["run"].to_numpy(dtype=int) % 2).astype(float)
+    assert "gust scale" not in sentence(rows, swept=("p_gust_scale_ratio",))
+
+
+def test_the_weakness_told_is_that_of_the_first_with_a_decided_flight(told, sentence):
+    rows = told(FAULTS, TWO, 20, lambda s, d, run: "undecided" if d == "one" else "wrong_site")
+    text = sentence(rows, voted={"other"})
+    assert text.startswith("The detector is never right in time in 40 decided faulty flights. It fails most in jam_a")
+    assert "In 40 flights it declares a healthy site." in text
 
 
 def test_nothing_flown_says_so(told, sentence, make_rows):

@@ -97,3 +97,19 @@ def test_paired_differences_are_adjusted_over_scenarios(rows):
     assert (each.only_a, each.only_b) == (28, 0)
     assert found[0, 0].p_holm >= each.p_value
     assert np.isclose(each.difference, -1.0)
+
+
+def test_a_scenario_with_faulty_and_healthy_logs_adds_up_too(told):
+    def logs(bad):
+        rows = told(
+            ("jam_a",), ("d",), 10, lambda s, d, run: "quiet" if run < 4 else "missed" if run == 9 and bad else "right"
+        )
+        rows.loc[rows["run"] < 4, "n_faulty"] = 0
+        return own(rows)
+
+    for bad, said in ((False, "6 right, 4 quiet of 10"), (True, "1 missed of 10")):
+        columns, found = logs(bad)
+        assert sum(counts_of(found[0, 0].line).values()) == found[0, 0].line["flown"] == 10
+        (cell,) = payload(columns, found, "results/x")["c"][0]
+        assert sum(cell["o"]) == cell["n"]
+        assert words(found[0, 0].line) == said

@@ -188,12 +188,25 @@ def read_mapping(path: Path) -> ChannelMap:
         raise FddbenchError("\n".join(f"{path}: {_line(each)}" for each in error.errors())) from None
 
 
+class _Once(yaml.SafeLoader):
+    """Refuses a key that stands twice in a block, of which YAML would keep the last."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+        """Block as a dict."""
+        first: dict[str, Any] = {}
+        for key, _ in node.value:
+            if isinstance(key, yaml.ScalarNode) and first.setdefault(key.value, key) is not key:
+                problem = f"key {key.value!r} stands twice in this block, first at line {first[key.value].start_mark.line + 1}"
+                raise yaml.constructor.ConstructorError(problem=problem, problem_mark=key.start_mark)
+        return super().construct_mapping(node, deep)
+
+
 def _data(path: Path) -> dict[str, Any]:
     try:
         raw = path.read_bytes()
         if len(raw) > _LARGEST:
             raise FddbenchError(f"{path}: larger than {_LARGEST / 1e6:g} MB; a mapping of logs is a page of text")
-        data = yaml.safe_load(raw.decode("utf-8-sig"))
+        data = yaml.load(raw.decode("utf-8-sig"), Loader=_Once)
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
         said = " ".join(str(error).split())
         raise FddbenchError(f"{path}: cannot be read as YAML: {said}") from error

@@ -7,7 +7,10 @@ from fddbench.campaign.reading.document import Address, Document, refuse
 from fddbench.campaign.reading.yaml_nodes import parse
 from fddbench.errors import CampaignError, FddbenchError, Mistake, did_you_mean
 
-__all__ = ["with_overrides"]
+__all__ = ["ALONE", "with_overrides"]
+
+ALONE = ("requirements=[]", "keep=all")
+"""Beside an override of the detectors: requirements are of the campaign's own, and all rows are read."""
 
 
 def with_overrides(document: Document, overrides: Sequence[str]) -> Document:

@@ -3,27 +3,23 @@
 from functools import cache
 from typing import Annotated, Any, Literal, get_type_hints
 
-from pydantic import BaseModel, ConfigDict, Field, create_model
+from pydantic import BaseModel, Field, create_model
 
-from fddbench.campaign.rules.keys import NAME_PATTERN, Count, Name, Number, Positive, Seed, Strict, Values
+from fddbench.campaign.rules.dispersions import Dispersions
+from fddbench.campaign.rules.keys import NAME_PATTERN, Count, Name, Number, Positive, Seed, Strict
 from fddbench.campaign.rules.swept import DetectorEntry, names_of
 from fddbench.errors import FddbenchError
 
 __all__ = [
     "NAME_PATTERN",
     "CampaignFile",
-    "Dispersions",
-    "Distribution",
-    "MonteCarlo",
     "Name",
-    "Normal",
     "Purpose",
     "ReportEntry",
     "RequirementEntry",
     "ScenarioEntry",
     "Seed",
     "Strict",
-    "TruncatedNormal",
     "campaign_file",
 ]
 
@@ -32,100 +28,7 @@ MOST_FAULTS = 8
 
 Duration = Annotated[float, Field(gt=0.0, le=LONGEST_FLIGHT_S)]
 Purpose = Literal["tuning", "evaluation"]
-
-
-class Normal(Strict):
-    """A bell curve.
-
-    Attributes
-    ----------
-    mean, std : float
-        In the unit of the parameter.
-    """
-
-    mean: Number
-    std: Positive
-
-
-class TruncatedNormal(Normal):
-    """A bell curve, drawn again until it falls into a window.
-
-    Attributes
-    ----------
-    low, high : float
-        The window, in the unit of the parameter.
-    """
-
-    low: Number
-    high: Number
-
-
-class Distribution(Strict):
-    """How a parameter is drawn; one of the three.
-
-    Attributes
-    ----------
-    uniform : (low, high)
-        In the unit of the parameter.
-    normal, truncated_normal : mapping
-        In the unit of the parameter.
-    """
-
-    uniform: Annotated[tuple[Number, ...], Field(min_length=2, max_length=2)] | None = None
-    normal: Normal | None = None
-    truncated_normal: TruncatedNormal | None = None
-
-
-class MonteCarlo(BaseModel):
-    """Flights drawn at random; every other key is a parameter.
-
-    Attributes
-    ----------
-    runs : int
-        Draws for each point of grid and sequence.
-    sampling : {"random", "sobol", "halton", "lhs"}
-        Independent draws; low-discrepancy points by the number of the run; a Latin hypercube of all runs, which fixes them.
-    table : str, optional
-        CSV or Parquet file beside the campaign with explicit cases: a column a parameter, a row a run.
-    correlation : list of [parameter, parameter, coefficient]
-        Of the bell curves behind two draws (a Gaussian copula).
-    """
-
-    model_config = ConfigDict(extra="allow", frozen=True)
-    __pydantic_extra__: dict[str, Distribution]
-
-    runs: Count
-    sampling: Literal["random", "sobol", "halton", "lhs"] = "random"
-    table: str | None = None
-    correlation: tuple[tuple[str, str, Number], ...] = ()
-
-    @property
-    def plain(self) -> bool:
-        """Whether every parameter is drawn by itself, at random."""
-        return self.sampling == "random" and self.table is None and not self.correlation
-
-    @property
-    def parameters(self) -> dict[str, Distribution]:
-        """Distribution by name of the parameter."""
-        return dict(self.__pydantic_extra__ or {})
-
-
-class Dispersions(Strict):
-    """What differs from flight to flight.
-
-    Attributes
-    ----------
-    grid : mapping of parameter to values
-        Every combination is flown.
-    sequence : mapping of parameter to values
-        Lists of one length, walked together.
-    monte_carlo : MonteCarlo
-        Drawn at random.
-    """
-
-    grid: dict[str, Values] = Field(default_factory=dict)
-    sequence: dict[str, Values] = Field(default_factory=dict)
-    monte_carlo: MonteCarlo | None = None
+Keep = Literal["all", "failures", "sample"]
 
 
 class ScenarioEntry(Strict):
@@ -246,6 +149,11 @@ class CampaignFile(Strict):
         What else the report shows.
     requirements : list of RequirementEntry
         What detectors must do; ``fddbench run --require`` ends with 1 where it is not shown.
+    keep : {"all", "failures", "sample"}
+        Which rows are kept. All rows are counted; ``sample`` keeps those of the first runs, ``failures`` besides every row of a
+        flight that was not found in time, wrongly declared, or failed.
+    kept_runs : int
+        How many runs of every scenario are kept whole by ``failures`` and ``sample``: a campaign by themselves.
     """
 
     name: Name
@@ -263,6 +171,8 @@ class CampaignFile(Strict):
     symbols: str | list[str | dict[str, Annotated[int, Field(ge=1)]]] | None = None
     report: ReportEntry = ReportEntry()
     requirements: tuple[RequirementEntry, ...] = ()
+    keep: Keep = "all"
+    kept_runs: Count = 100
 
     @property
     def detector_names(self) -> tuple[str, ...]:

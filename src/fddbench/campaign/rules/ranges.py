@@ -6,7 +6,8 @@ from math import erf, sqrt
 import numpy as np
 
 from fddbench.campaign.reading.document import Address, Document
-from fddbench.campaign.rules.model import CampaignFile, Distribution, MonteCarlo, TruncatedNormal
+from fddbench.campaign.rules.dispersions import Distribution, MonteCarlo, TruncatedNormal
+from fddbench.campaign.rules.model import CampaignFile
 from fddbench.campaign.rules.wording import unit_of
 from fddbench.campaign.shares import correlation_matrix
 from fddbench.errors import Mistake

@@ -7,7 +7,7 @@ from typing import Any
 
 from fddbench import kinds
 from fddbench.campaign.reading.document import Address, Document
-from fddbench.campaign.rules.model import MonteCarlo
+from fddbench.campaign.rules.dispersions import MonteCarlo
 from fddbench.errors import FddbenchError, Mistake, did_you_mean
 from fddbench.interfaces import Benchmark, Choice, Plant
 

@@ -4,7 +4,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from fnmatch import fnmatchcase
 
 from fddbench.campaign.reading.document import Address, Document
-from fddbench.campaign.rules.model import CampaignFile, Dispersions, RequirementEntry
+from fddbench.campaign.rules.dispersions import Dispersions
+from fddbench.campaign.rules.model import CampaignFile, RequirementEntry
 from fddbench.errors import Mistake, did_you_mean
 from fddbench.metrics.requirements import AT_LEAST, OF_FAULTS
 
@@ -103,7 +104,14 @@ def _matched(
         if not chosen([pattern], known):
             parts = (did_you_mean(pattern, known), f"Its {what}s: {', '.join(known)}")
             hint = " ".join(filter(None, parts))
-            yield document.mistake((*at, number), f"no {what} of this campaign is called {pattern!r}. {hint}")
+            message = f"no {what} of this campaign is called {pattern!r}. {hint}{_without(document, f'{what}s')}"
+            yield document.mistake((*at, number), message)
+
+
+def _without(document: Document, *address: str) -> str:
+    """Cure for requirements that an override of the command line made pointless."""
+    changed = document.where(address).startswith("--set")
+    return ". Without requirements: --set requirements=[]" if changed else ""
 
 
 def _parts(document: Document, at: Address, entry: RequirementEntry, dispersions: Dispersions) -> Iterator[Mistake]:
@@ -132,6 +140,6 @@ def _runs(document: Document, at: Address, entry: RequirementEntry, written: Cam
     if runs and min(runs) < 2:
         message = (
             "a requirement is judged over Monte-Carlo runs, and there is one run; write dispersions: {monte_carlo: {runs: "
-            "1000}}"
+            f"1000}}}}{_without(document, 'dispersions', 'monte_carlo', 'runs')}"
         )
         yield document.mistake(at, message)

@@ -6,8 +6,8 @@ from typing import Any
 from fddbench import kinds
 from fddbench.campaign.rules.model import CampaignFile
 from fddbench.campaign.schema.fault_entries import fault_kind, registered_faults
-from fddbench.campaign.schema.on_benchmark import written_schema
-from fddbench.campaign.schema.parts import DIALECT, FILE_KIND
+from fddbench.campaign.schema.on_benchmark import HEALTHY_WITHOUT_LIMIT, written_schema
+from fddbench.campaign.schema.parts import DIALECT, FILE_KIND, when
 from fddbench.interfaces import Benchmark, Plant
 from fddbench.interfaces.benchmark import default_choices
 from fddbench.units import UNITS
@@ -23,14 +23,17 @@ def campaign_schema() -> dict[str, Any]:
     """
     keys: dict[str, None] = {}
     units: set[str] = set()
+    without: list[str] = []
     for name in kinds.known("benchmark"):
         try:
             benchmark = kinds.load("benchmark", name)()
-            found = {site.unit_name for plant in _plants(benchmark) for site in plant.sites}
+            plants = list(_plants(benchmark))
+            found = {site.unit_name for plant in plants for site in plant.sites}
         except Exception:  # a package of somebody else's may raise anything
             continue
         keys |= dict.fromkeys(key for key in benchmark.choices if key not in CampaignFile.model_fields)
         units |= found & UNITS.keys()
+        without += [] if any(hasattr(plant, "labelled") for plant in plants) else [name]
     schema = written_schema(tuple(keys))
     faults = [
         fault_kind(name, kind, unit, schema["$defs"])
@@ -39,6 +42,8 @@ def campaign_schema() -> dict[str, Any]:
     ]
     faults.append({"properties": {"kind": {"type": "string", "pattern": FILE_KIND}}, "required": ["kind"]})
     schema["$defs"]["ScenarioEntry"]["properties"]["faults"]["items"] = {"anyOf": faults}
+    on_them = {"properties": {"benchmark": {"enum": without}}, "required": ["benchmark"]}
+    schema["allOf"].append(when(on_them, {"properties": {"scenarios": {"items": HEALTHY_WITHOUT_LIMIT}}}))
     return {"$schema": DIALECT, "$id": "urn:fddbench:campaign", "title": "fddbench campaign", **schema}
 
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from itertools import combinations
 
 from fddbench.campaign.in_words import parameter_in_words
-from fddbench.campaign.rules.model import MonteCarlo
+from fddbench.campaign.rules.dispersions import MonteCarlo
 from fddbench.campaign.schema.described import titled
 from fddbench.campaign.schema.parts import Schema, reference, when
 from fddbench.interfaces import Parameter

@@ -6,34 +6,31 @@ from typing import Any
 from fddbench import kinds
 from fddbench.campaign.in_words import options_in_words
 from fddbench.campaign.rules.consistency import MOST_CASES
+from fddbench.campaign.rules.dispersions import Dispersions, Distribution, MonteCarlo, Normal, TruncatedNormal
 from fddbench.campaign.rules.keys import NAME_PATTERN
-from fddbench.campaign.rules.model import (
-    CampaignFile,
-    Dispersions,
-    Distribution,
-    MonteCarlo,
-    Normal,
-    ReportEntry,
-    RequirementEntry,
-    ScenarioEntry,
-    TruncatedNormal,
-    campaign_file,
-)
+from fddbench.campaign.rules.model import CampaignFile, ReportEntry, RequirementEntry, ScenarioEntry, campaign_file
 from fddbench.campaign.rules.references import default_of
 from fddbench.campaign.rules.swept import Sweep, SweptDesign
 from fddbench.campaign.schema.described import described, titled
 from fddbench.campaign.schema.names import name_rules
 from fddbench.campaign.schema.parts import DIALECT, FILE_KIND, Schema, one_of_names, when
 from fddbench.interfaces import Benchmark, Choice
+from fddbench.interfaces.benchmark import default_choices
 from fddbench.metrics.requirements import MEASURES
 
-__all__ = ["benchmark_schema", "written_schema"]
+__all__ = ["HEALTHY_WITHOUT_LIMIT", "benchmark_schema", "written_schema"]
 
 _MODELS = (
     Dispersions, Distribution, MonteCarlo, Normal, TruncatedNormal, ReportEntry, RequirementEntry, ScenarioEntry, Sweep,
     SweptDesign,
 )  # fmt: skip
 _DATA_FILE = r"\.ya?ml$"
+
+HEALTHY_WITHOUT_LIMIT: Schema = when(
+    {"not": {"required": ["faults"], "properties": {"faults": {"minItems": 1}}}},
+    {"properties": {"detection_time_limit_s": {"type": "null"}}},
+)
+"""A scenario without faults has no limit, where what flies brings no faults of its own."""
 
 
 def benchmark_schema(benchmark: Benchmark, *, called: str = "", designs: Sequence[str] = ()) -> dict[str, Any]:
@@ -62,6 +59,8 @@ def benchmark_schema(benchmark: Benchmark, *, called: str = "", designs: Sequenc
     properties["detectors"]["items"] = {
         "anyOf": [{"$ref": "#/$defs/design"}, {"$ref": "#/$defs/SweptDesign"}],
     }
+    if not hasattr(benchmark.plant(default_choices(benchmark)), "labelled"):
+        definitions["ScenarioEntry"]["allOf"] = [HEALTHY_WITHOUT_LIMIT]
     rules = list(name_rules(benchmark, definitions))
     del schema["description"]
     return {
@@ -85,9 +84,6 @@ def written_schema(choices: tuple[str, ...]) -> Schema:
     for name in ("Distribution", "Sweep"):
         definitions[name] |= {"minProperties": 1, "maxProperties": 1}
     definitions["MonteCarlo"]["properties"]["runs"]["maximum"] = MOST_CASES
-    healthy = {"not": {"required": ["faults"], "properties": {"faults": {"minItems": 1}}}}
-    no_limit = {"properties": {"detection_time_limit_s": {"type": "null"}}}
-    definitions["ScenarioEntry"]["allOf"] = [when(healthy, no_limit)]
     definitions["RequirementEntry"]["allOf"] = list(_limits())
     schema["properties"]["detectors"]["uniqueItems"] = True
     tuning = {"properties": {"purpose": {"const": "tuning"}}, "required": ["purpose"]}

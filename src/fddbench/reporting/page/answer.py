@@ -61,6 +61,7 @@ def answer(
     *,
     courses: Sequence[Course] = (),
     loudest: Loudest | None = None,
+    along_first: bool = False,
 ) -> Said:
     """Pieces of the sentence.
 
@@ -74,6 +75,8 @@ def answer(
         What the campaign varies.
     loudest : Loudest or None
         Healthy scenario with most false alarms.
+    along_first : bool
+        Whether what the campaign varies is what it asks for.
     """
     if not ranks:
         return [("Not decided: no flight was flown.", False)]
@@ -86,22 +89,23 @@ def answer(
             (f": all {count(n)} faulty flights end before the limit of their fault without a declaration. ", False),
             *_healthy(ranks, loudest),
         ]
-    best = ranks[0]
-    said = _verdict(ranks, second)
-    for course in courses:
-        said += _along(course)
-    said += _weakness(best)
+    decided = [line for line in ranks if line.decided]
+    best = decided[0]
+    said, along = _verdict(decided, second), [piece for course in courses for piece in _along(course)]
+    said = along + said if along_first else said + along
+    if len(decided) == 1 or any(line.right.hits < line.decided for line in decided):
+        said += _weakness(best, "It" if len(decided) == 1 else best.detector)
     said += _false_alarms(best, loudest)
     return said
 
 
-def _verdict(ranks: Sequence[Rank], second: PairedShares | None) -> Said:
-    decided = [line for line in ranks if line.decided]
+def _verdict(decided: Sequence[Rank], second: PairedShares | None) -> Said:
     best, n = decided[0], f"{count(decided[0].decided)} decided faulty flight{'' if decided[0].decided == 1 else 's'}"
     right = [line.right.hits == line.decided for line in decided]
     who = "Both detectors" if len(decided) == 2 else f"All {len(decided)} detectors"
     if len(decided) > 1 and all(right):
-        return [(f"{who} are right in time", True), (f" in all {n}{_bound(best)}. ", False)]
+        flights = "the one decided faulty flight" if best.decided == 1 else f"all {n}"
+        return [(f"{who} are right in time", True), (f" in {flights}{_bound(best)}. ", False)]
     if all(line.right.hits == 0 for line in decided):
         return [(f"{'The detector is' if len(decided) == 1 else who + ' are'} never right", True),
                 (f" in time in {n}. ", False)]  # fmt: skip
@@ -116,8 +120,11 @@ def _best(decided: Sequence[Rank], second: PairedShares | None) -> Said:
         return [(f"First of {len(decided)}, on other flights than the second: ", False), (best.detector, True), (", ", False),
                 *_share(best)]  # fmt: skip
     if second.only_a == second.only_b == 0:
+        same = (best.right.hits, best.decided)
+        also = [line.detector for line in decided[2:] if (line.right.hits, line.decided) == same]
+        as_often = f"{' and '.join(filter(None, [', '.join(also[:-1]), also[-1]]))} as often, " if also else ""
         return [("Not decided: ", False), (best.detector, True), (" and ", False), (other.detector, True),
-                (" are right in the same flights, ", False), *_share(best)]  # fmt: skip
+                (f" are right in the same flights, {as_often}", False), *_share(best)]  # fmt: skip
     if second.p_value is None or second.p_value >= _SURE or second.runs < 2:
         p = f"p = {second.p_value:.2g}" if second.p_value is not None and second.runs > 1 else "one run is no test"
         share = f", {percent(_percent(best))} and {percent(_percent(other))} % of faulty flights right in time ({p}). "
@@ -149,10 +156,10 @@ def _bound(line: Rank) -> str:
 
 
 def _along(course: Course) -> Said:
-    """Who loses most and who loses least between the first and the last value."""
-    if not course.shares:
-        return []
+    """Who loses most and who loses least between the first and the last value; nothing where nobody's share changes."""
     losses = sorted(course.shares, key=lambda each: each[2] - each[1])
+    if all(first == last for _, first, last in losses):
+        return []
     most, least = losses[0], losses[-1]
     text: Said = [(f"From {course.name} {course.first} to {course.last} right goes from ", False), *_from_to(most)]
     if least[0] != most[0]:
@@ -165,13 +172,14 @@ def _from_to(each: tuple[str, float, float]) -> Said:
     return [(f"{percent(first)} to {percent(last)} %", True), (f" with {name}", False)]
 
 
-def _weakness(best: Rank) -> Said:
-    said: Said = []
+def _weakness(best: Rank, who: str) -> Said:
+    """Where it fails; by its name where a sentence before has named several."""
+    said: Said = [(who, who == best.detector)]
     if best.weakest is None:
-        said.append(("It fails in none of them. ", False)) if best.decided else None
+        said.append((" fails in no flight. ", False))
     else:
         worst = best.weakest
-        said += [("It fails most in ", False), (worst.scenario, True),
+        said += [(" fails most in ", False), (worst.scenario, True),
                  (f": {count(worst.failed)} of {count(worst.decided)} flights. ", False)]  # fmt: skip
     wrong = best.outcomes.get("wrong_site", 0)
     flights = f"{count(wrong)} flight{'' if wrong == 1 else 's'}"
@@ -188,11 +196,17 @@ def _false_alarms(best: Rank, loudest: Loudest | None) -> Said:
         return []
     high = f" (up to {percent(best.alarms_high_percent)} %)" if best.alarms_high_percent is not None else ""
     number = count(best.alarms) if best.alarms else "none"
-    said: Said = [(f"False alarms: {number} in {count(best.distinct_flights)} distinct flights{high}", False)]
+    said: Said = [(f"False alarms: {number} in {_distinct(best)}{high}", False)]
     if loudest is not None and loudest.alarms:
         said += [("; most of all detectors in ", False), (loudest.scenario, True),
                  (f": {count(loudest.alarms)} of {count(loudest.flights)} with {loudest.detector}", False)]  # fmt: skip
     return [*said, (".", False)]
+
+
+def _distinct(line: Rank) -> str:
+    """``540 distinct flights of 25 runs``; of as many runs where it says nothing of them."""
+    runs = f" of {count(line.runs)} run{'' if line.runs == 1 else 's'}" if line.runs != line.distinct_flights else ""
+    return f"{count(line.distinct_flights)} distinct flight{'' if line.distinct_flights == 1 else 's'}{runs}"
 
 
 def _healthy(ranks: Sequence[Rank], loudest: Loudest | None) -> Said:
@@ -200,11 +214,11 @@ def _healthy(ranks: Sequence[Rank], loudest: Loudest | None) -> Said:
     watched = [line for line in ranks if line.distinct_flights]
     if not watched:
         return [("No healthy stretch was flown either.", False)]
-    n = count(max(line.distinct_flights for line in watched))
+    most_flights = max(watched, key=lambda line: line.distinct_flights)
     if not any(line.alarms for line in watched):
         high = max((line.alarms_high_percent or 0.0) for line in watched)
         upper = f" (up to {percent(high)} % of flights at 95 %)" if high else ""
-        return [("No false alarm", True), (f" of any detector in {n} distinct flights{upper}.", False)]
+        return [("No false alarm", True), (f" of any detector in {_distinct(most_flights)}{upper}.", False)]
     ordered = sorted(watched, key=lambda line: line.alarms / line.distinct_flights)
     least, most = ordered[0], ordered[-1]
     said: Said = [("False alarms: ", False), *_count_of(most)]

@@ -1,5 +1,6 @@
 """What stands in each section of the page."""
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -7,27 +8,30 @@ import pandas as pd
 
 from fddbench.metrics.alarms import summarize_alarms
 from fddbench.metrics.bound import breaches, with_bounds
-from fddbench.metrics.paired import PairedShares
 from fddbench.metrics.summary import summarize
 from fddbench.reporting import detectability, headlines, infeasible, tables
 from fddbench.reporting.bands import band_sections
-from fddbench.reporting.beside import beside
+from fddbench.reporting.beside import Beside, beside
 from fddbench.reporting.bounds import HEADS, bound_lines
 from fddbench.reporting.consequences import consequence_heads, consequence_lines
 from fddbench.reporting.guarantees import guarantee_lines
 from fddbench.reporting.labels import OUTCOMES
-from fddbench.reporting.page.answer import answer
+from fddbench.reporting.loads import load_heads, load_lines, measured_by
+from fddbench.reporting.page.answer import Said, answer
+from fddbench.reporting.page.asked import asked
 from fddbench.reporting.page.cells import Cell, cells
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.page.convergence import convergence_scene
+from fddbench.reporting.page.counted import COUNTED_HEADS, counted_lines
 from fddbench.reporting.page.courses import courses, loudest
 from fddbench.reporting.page.data import ReportData
 from fddbench.reporting.page.envelope import envelope_maps, envelope_pairs, infeasible_map
+from fddbench.reporting.page.led_by import of_points, of_print, of_quiet
 from fddbench.reporting.page.matrix import matrix_lines
 from fddbench.reporting.page.operating import operating_scenes
 from fddbench.reporting.page.payload import payload
-from fddbench.reporting.page.ranking import Rank, beside_best, ranking
-from fddbench.reporting.page.ranks import rank_lines
+from fddbench.reporting.page.ranking import Rank, ranking, second_beside_best
+from fddbench.reporting.page.ranks import rank_lines, silence
 from fddbench.reporting.page.requirements import requirement_lines, requirement_sentence
 from fddbench.reporting.page.traces import signal_sections
 from fddbench.reporting.reasons import REASONS
@@ -35,7 +39,7 @@ from fddbench.reporting.references import bibliography
 
 __all__ = ["content"]
 
-_MOST_REASONS = 60
+_MOST_REASONS = 30
 
 
 def content(report: ReportData) -> dict[str, Any]:
@@ -50,19 +54,25 @@ def content(report: ReportData) -> dict[str, Any]:
     ranks = ranking(columns, alarms, in_sample=report.in_sample, voted=voted)
     best = ranks[0].number if ranks and ranks[0].decided else None
     own = cells(columns, summary, best)
+    compared = [found for table in report.published if (found := beside(summary, table, report.campaign)) is not None]
     return {
-        **_head(report, ranks, columns),
+        **_head(report, ranks, columns, compared),
         "payload": payload(columns, own, report.folder),
         "ranks": rank_lines(ranks),
+        "silence": silence(ranks),
         "best": ranks[0].detector if best is not None else "",
         "detectors": list(columns.detectors),
         "matrix": matrix_lines(columns, own),
         "outcomes": [(look, OUTCOMES[name]) for name, look in _LEGEND.items()],
         **_pictures(report, columns, ranks, alarms),
-        **_more(report, summary),
+        **_more(report, summary, compared),
         "converging": [scene for line in ranks if (scene := convergence_scene(columns, line)) is not None],
-        "references": bibliography(_methods(own.values())),
+        "references": bibliography(_methods(own.values()) | ({"monotone"} if _has_maps(report) else set())),
     }
+
+
+def _has_maps(report: ReportData) -> bool:
+    return report.detectable is not None and not report.detectable.empty
 
 
 def _methods(own: Iterable[Cell]) -> set[str]:
@@ -73,7 +83,7 @@ def _methods(own: Iterable[Cell]) -> set[str]:
             "incidence": cell.incidence,
             "association": cell.associations,
             "paired": cell.paired,
-            "monotone": cell.size,
+            "curve": cell.size is not None and cell.size.curve is not None,
         }
         found |= {name for name, what in told.items() if what}
     return found
@@ -82,27 +92,38 @@ def _methods(own: Iterable[Cell]) -> set[str]:
 _LEGEND = {"right": "o0", "late": "o1", "missed": "o3", "wrong_site": "o4", "false_alarm": "o5", "undecided": "o2"}
 
 
-def _head(report: ReportData, ranks: Sequence[Rank], columns: Columns) -> dict[str, Any]:
+def _head(report: ReportData, ranks: Sequence[Rank], columns: Columns, compared: Sequence[Beside]) -> dict[str, Any]:
     """The first screen."""
     names = ("benchmark", *report.choices, "reconfigure", "purpose", "seed", "sample_s")
     return {
         "campaign": report.campaign,
         "settings": {n: report.campaign[n] for n in names if report.campaign.get(n) not in (None, "")},
         "partial": report.partial,
+        "kept": report.kept,
+        "counted": counted_lines(report.counted),
+        "counted_heads": COUNTED_HEADS,
         "flown": headlines.flown_sentence(report.rows),
-        "answer": answer(
-            ranks, _second(columns, ranks), courses=courses(columns, report.swept), loudest=loudest(columns, ranks)
-        ),
+        "answer": _answer(report, ranks, columns, compared),
         "in_sample": report.in_sample,
         "requirements": requirement_lines(report.requirements),
         "required": requirement_sentence(report.requirements),
     }
 
 
-def _second(columns: Columns, ranks: Sequence[Rank]) -> PairedShares | None:
-    """The second of the ranking beside the first."""
-    known = [line for line in ranks if line.decided]
-    return beside_best(columns, known[0].number, known[1].number) if len(known) > 1 else None
+def _answer(report: ReportData, ranks: Sequence[Rank], columns: Columns, compared: Sequence[Beside]) -> Said:
+    """What the campaign asks comes first, then which detector, where it fails, how sure that is."""
+    about = " ".join(str(report.campaign.get("about") or "").split())
+    drawn, loud = [each.scenario for each in report.recordings if each.cases], loudest(columns, ranks)
+    varied = (report.campaign.get("dispersions") or {}).get("sequence") or {}
+    first = asked(
+        about, report.rows, report.consequences, drawn, commander=str(report.campaign.get("reconfigure") or "")
+    )
+    first += of_quiet(about, loud)
+    first += of_points(about, columns, [f"p_{name}" for name in varied if f"p_{name}" in report.rows])
+    first += of_print(about, compared, ranks[0].detector if ranks else "")
+    second = second_beside_best(columns, ranks)
+    what = report.operating is None and re.match(r"What (do|does|is left)\b|How\b|At which\b", about) is not None
+    return first + answer(ranks, second, courses=courses(columns, report.swept), loudest=loud, along_first=what)
 
 
 _MOST_MAPS = 6
@@ -116,7 +137,7 @@ def _pictures(report: ReportData, columns: Columns, ranks: Sequence[Rank], alarm
     chosen = [line.number for line in ranks[:most]]
     maps = [scene for x, y in pairs if (scene := infeasible_map(columns, x, y)) is not None]
     promises = {str(d["name"]): d["promise"] for d in report.designs if d.get("promise") is not None}
-    own = report.detectable if report.detectable is not None and not report.detectable.empty else None
+    own = report.detectable if _has_maps(report) else None
     return {
         "folder": report.folder,
         "operating": operating_scenes(report.operating) if report.operating is not None else [],
@@ -131,14 +152,15 @@ def _pictures(report: ReportData, columns: Columns, ranks: Sequence[Rank], alarm
         "bands": band_sections(report.bands, report.responses, report.shown),
         "signals": signal_sections(report.recordings, report.rows, [line.detector for line in ranks], promises),
         "promised": bool(promises),
+        "unpromised": [str(d["name"]) for d in report.designs if d.get("lost_reference")],
+        "unflown": report.unflown,
     }
 
 
-def _more(report: ReportData, summary: pd.DataFrame) -> dict[str, Any]:
+def _more(report: ReportData, summary: pd.DataFrame, compared: Sequence[Beside]) -> dict[str, Any]:
     """What is folded away."""
     rows = report.rows
     reasons = tables.reason_lines(rows)
-    compared = [found for table in report.published if (found := beside(summary, table, report.campaign)) is not None]
     return {
         "compared": compared,
         "guarantees": guarantee_lines(rows, report.events, report.designs),
@@ -154,6 +176,9 @@ def _more(report: ReportData, summary: pd.DataFrame) -> dict[str, Any]:
         "events": tables.event_lines(report.events) if len(report.events) else [],
         "provenance": report.provenance,
         "designs": report.designs,
+        "loads": load_lines(report.designs),
+        "load_heads": load_heads(report.designs),
+        "load_by": measured_by(report.designs),
         "campaign_text": _as_yaml(report.campaign),
     }
 

@@ -27,9 +27,11 @@ class ReportData:
     provenance : mapping of str to str
         Versions, machine, date, wall time, hashes: shown as it is.
     designs : sequence of mapping
-        Per detector name, kind, source, about, load (of a step, in words), sees ("sensors" or "voted"), sha256.
+        Per detector name, kind, source, about, sees ("sensors" or "voted"), sha256, and what `fddbench.reporting.loads` shows.
     recordings : sequence of Recording
         Re-flown cases, one recording per scenario.
+    unflown : str
+        Why nothing was flown again, as a sentence in the place of the pictures; "" where it was.
     published : sequence of Published
         Printed tables to stand beside ours.
     iterations : Iterations or None
@@ -44,6 +46,10 @@ class ReportData:
         Detectors that were tuned on these flights.
     partial : str
         How many flights of how many the folder holds, "" when all.
+    kept : str
+        Which rows these are where the campaign does not keep all, "" where it does.
+    counted : DataFrame or None
+        Then what is counted of all, lines of `fddbench.metrics.summary.SUMMARY`.
     detectable : DataFrame or None
         Maps of detectability, lines of `fddbench.metrics.detectable.DETECTABLE`.
     consequences : sequence of Consequence
@@ -72,6 +78,7 @@ class ReportData:
     provenance: Mapping[str, str]
     designs: Sequence[Mapping[str, Any]]
     recordings: Sequence[Recording]
+    unflown: str = ""
     published: Sequence[Published] = ()
     iterations: Iterations | None = None
     limits_from: str = ""
@@ -79,6 +86,8 @@ class ReportData:
     envelope_axes: Sequence[tuple[str, str]] = ()
     in_sample: Sequence[str] = ()
     partial: str = ""
+    kept: str = ""
+    counted: pd.DataFrame | None = None
     detectable: pd.DataFrame | None = None
     bounds: pd.DataFrame | None = None
     consequences: Sequence[Consequence] = ()

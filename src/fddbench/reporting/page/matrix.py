@@ -16,6 +16,7 @@ __all__ = ["MatrixCell", "MatrixLine", "matrix_lines", "matrix_scene", "words"]
 
 _WIDTH, _HEIGHT = 150.0, 16.0
 _SHORT = {
+    "quiet": "quiet",
     "late": "late",
     "undecided": "undecided",
     "missed": "missed",
@@ -93,7 +94,9 @@ def words(line: Mapping[Any, Any]) -> str:
         ends = ends_of(line)
         least = f", ≥ {percent(100.0 * ends[0])} %" if ends is not None else ""
         return f"all {count(flown)} {good}{least}"
-    rest = sorted(((n, _SHORT[name]) for name, n in counts.items() if name != good and n), reverse=True)
+    if counts.get("right", 0) + counts.get("quiet", 0) == flown:
+        return f"{count(counts['right'])} right, {count(counts['quiet'])} quiet of {count(flown)}"
+    rest = sorted(((n, _SHORT[name]) for name, n in counts.items() if name not in (good, "quiet") and n), reverse=True)
     more = ", …" if len(rest) > 2 else ""
     return f"{', '.join(f'{count(n)} {word}' for n, word in rest[:2])}{more} of {count(flown)}"
 

@@ -8,15 +8,16 @@ import numpy as np
 from fddbench.interfaces import Floats
 from fddbench.metrics.association import Association
 from fddbench.metrics.paired import PairedShares
-from fddbench.reporting.formats import count, interval, percent, present, rate, seconds, short
+from fddbench.reporting.formats import count, interval, percent, present, rate, seconds
 from fddbench.reporting.labels import label
 from fddbench.reporting.page.cells import Cell
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.page.sizes import SizeCurve
 from fddbench.reporting.svg.axes import ticks_text
 from fddbench.reporting.svg.charts import Parted
+from fddbench.reporting.svg.size import Fitted
 
-__all__ = ["ORDER", "counts_of", "part_names", "parted_of", "payload"]
+__all__ = ["ORDER", "counts_of", "fitted_of", "part_names", "parted_of", "payload"]
 
 ORDER = ("right", "late", "undecided", "missed", "wrong_site", "false_alarm")
 """Outcomes of a cell in the payload; of a healthy one the first is quiet."""
@@ -25,8 +26,8 @@ Data = dict[str, Any]
 
 
 def counts_of(line: Mapping[Any, Any]) -> dict[str, int]:
-    """Flights of a cell by outcome, those that it has."""
-    names = ("quiet", "false_alarm") if line["healthy"] else ORDER
+    """Flights of a cell by outcome, those that it has; a scenario of logs may have quiet flights beside faulty ones."""
+    names = ("quiet", "false_alarm") if line["healthy"] else (*ORDER, "quiet")
     return {name: int(line[name]) for name in names if present(line[name])}
 
 
@@ -70,6 +71,8 @@ def _cell(cell: Cell) -> Data:
     counts = counts_of(line)
     names = ("quiet", *ORDER[1:]) if line["healthy"] else ORDER
     found: Data = {"o": [counts.get(name, 0) for name in names], "n": int(line["flown"])}
+    if not line["healthy"]:
+        found["o"][0] += counts.get("quiet", 0)  # what went well, as in the bar
     lost = [int(line[name]) for name in ("infeasible", "failed", "departed")]
     if any(lost):
         found["z"] = lost
@@ -124,14 +127,32 @@ def _paired(own: PairedShares, p_holm: float | None) -> list[Any]:
 
 
 def _size(own: SizeCurve) -> list[Any]:
-    names = part_names(own.low, own.high)
-    answer = own.smallest
-    said = ""
-    if answer.relation is not None and answer.size is not None:
-        sign = {"at_most": "at most ", "above": "above "}.get(answer.relation, "about ")
-        said = f"90 % found: {sign}{short(answer.size)}"
+    names, fitted = part_names(own.low, own.high), fitted_of(own)
+    said = f"{own.said[:1].upper()}{own.said[1:]}."
+    drawn: Any = 0
+    if fitted is not None:
+        shares = [round(1000.0 * each) for each in fitted.shares]
+        drawn = [*([_short(each) for each in some] for some in (fitted.middles, fitted.sizes)), shares]
+        drawn += [None if each is None else _short(each) for each in (fitted.size_90, fitted.size_90_95)]
     return [label(own.name), names, own.right.astype(int).tolist(), own.flights.astype(int).tolist(), _hundred(own.share_low),
-            _hundred(own.share_high), said]  # fmt: skip
+            _hundred(own.share_high), said, drawn]  # fmt: skip
+
+
+def fitted_of(own: SizeCurve) -> Fitted | None:
+    """The fitted curve over the sizes flown, as pictures take it; None without one."""
+    if own.curve is None:
+        return None
+    sizes = np.geomspace(max(float(own.low[0]), 1e-12), float(own.high[-1]), _POINTS)
+    ends = [own.curve.size_90, own.curve.size_90_95]
+    return Fitted(
+        middles=own.middle.tolist(), sizes=sizes.tolist(), shares=own.curve.share(sizes).tolist(),
+        **{name: end if end is not None and end <= _FAR * sizes[-1] else None for name, end in zip(_NINETY, ends, strict=True)},
+    )  # fmt: skip
+
+
+_POINTS, _FAR = 25, 1.5
+"""Points of a drawn curve; how far beyond the largest size flown its end may be drawn."""
+_NINETY = ("size_90", "size_90_95")
 
 
 def _short(value: float) -> float | None:

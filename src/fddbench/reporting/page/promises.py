@@ -8,7 +8,7 @@ import numpy as np
 
 from fddbench.interfaces import Floats, Recording
 
-__all__ = ["Promise", "promise_of"]
+__all__ = ["Promise", "lost_reference", "promise_of"]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -61,17 +61,32 @@ class Promise:
         return {f"mean_{i + 1}": values[:, i] for i in range(values.shape[1])}
 
 
+_SEARCHING = ("free_reference", "fixed_poles", "two_step")
+"""Methods of a `hinf_filter` recipe that choose the reference themselves and write it under `found`."""
+
+
 def promise_of(content: Mapping[str, Any]) -> Promise | None:
-    """Promise of a design file from its recipe; None where it makes none."""
+    """Promise of a design file from its recipe; None where it makes none.
+
+    A method that searches for a reference promises the one that it found, not the one it began with.
+    """
     recipe, gains = content.get("recipe") or {}, content.get("gains") or {}
     rows, window_s = gains.get("C"), gains.get("window_s")
     if content.get("kind") != "hinf_filter" or not rows or not window_s or not isinstance(recipe, Mapping):
         return None
-    found = (recipe.get("found") or {}).get("reference") if recipe.get("method") != "fixed_reference" else None
-    reference = found or recipe.get("reference")
+    searched = recipe.get("method") in _SEARCHING
+    reference = (recipe.get("found") or {}).get("reference") if searched else recipe.get("reference")
     if reference is None:
         return _matrices({"D": np.eye(len(rows)).tolist()}, float(window_s)) if gains.get("estimates_faults") else None
     return _matrices(reference, float(window_s))
+
+
+def lost_reference(content: Mapping[str, Any]) -> bool:
+    """Whether a design was made for a reference that a search found and its file does not keep: its promise is unknown."""
+    recipe = content.get("recipe")
+    if content.get("kind") != "hinf_filter" or not isinstance(recipe, Mapping):
+        return False
+    return recipe.get("method") in _SEARCHING and not (recipe.get("found") or {}).get("reference")
 
 
 def _matrices(reference: Mapping[str, Any], window_s: float) -> Promise:

@@ -1,6 +1,6 @@
 """The detectors of a campaign, best first: one line each, over all faulty scenarios together."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,7 +11,7 @@ from fddbench.metrics.clustered import PooledShare, korn_graubard
 from fddbench.metrics.paired import PairedShares, paired_shares
 from fddbench.reporting.page.columns import Columns
 
-__all__ = ["Rank", "Weakest", "beside_best", "ranking"]
+__all__ = ["Rank", "Weakest", "beside_best", "ranking", "second_beside_best"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,8 +41,10 @@ class Rank:
         Flights by outcome.
     distinct_flights, alarms : int
         Healthy flights until their onsets, each once, and those with a false alarm.
+    runs : int
+        Runs that these come from: flights of one run are one witness.
     alarms_high_percent : float or None
-        Upper end of the 95 % interval of their share [%].
+        Upper end of the 95 % interval of their share, by run [%].
     weakest : Weakest or None
         None: nothing failed, or nothing was decided.
     in_sample, voted : bool
@@ -60,6 +62,7 @@ class Rank:
     alarms: int
     alarms_high_percent: float | None
     weakest: Weakest | None
+    runs: int = 0
     in_sample: bool = False
     voted: bool = False
 
@@ -88,7 +91,7 @@ def ranking(
                 outcomes={str(each): int(n) for each, n in counts.items()},
                 distinct_flights=int(line.get("distinct_flights", 0)), alarms=int(line.get("alarms", 0)),
                 alarms_high_percent=None if high is None or pd.isna(high) else float(high),
-                weakest=_weakest(columns, own), in_sample=name in in_sample, voted=name in voted,
+                weakest=_weakest(columns, own), runs=int(line.get("runs", 0)), in_sample=name in in_sample, voted=name in voted,
             )
         )  # fmt: skip
     return sorted(lines, key=_order)
@@ -130,3 +133,9 @@ def beside_best(columns: Columns, best: int, other: int, scenario: int | None = 
     a, b = both["right_a"].to_numpy(dtype=bool), both["right_b"].to_numpy(dtype=bool)
     run = both["run"].to_numpy()
     return paired_shares(a, b, run)
+
+
+def second_beside_best(columns: Columns, ranks: Sequence[Rank]) -> PairedShares | None:
+    """The second of those with a decided flight beside the first; None where there are not two."""
+    known = [line.number for line in ranks if line.decided]
+    return beside_best(columns, known[0], known[1]) if len(known) > 1 else None

@@ -6,12 +6,28 @@ from fddbench.reporting.formats import DASH, count, interval, percent
 from fddbench.reporting.page.ranking import Rank
 from fddbench.reporting.tables import Cell
 
-__all__ = ["rank_lines"]
+__all__ = ["rank_lines", "silence"]
 
 
 def rank_lines(ranks: Sequence[Rank]) -> list[tuple[int, str, str, list[Cell]]]:
     """Number, name, notes and cells of each detector, best first."""
     return [(line.number, line.detector, _notes(line), _cells(line)) for line in ranks]
+
+
+def silence(ranks: Sequence[Rank]) -> str:
+    """What no false alarm leaves open, in the numbers of the first detector that has none; "" where none has none."""
+    quiet = [line for line in ranks if line.distinct_flights and not line.alarms]
+    if not quiet:
+        return ""
+    line = quiet[0]
+    flights = f"none in {count(line.distinct_flights)} flight{'' if line.distinct_flights == 1 else 's'}"
+    if line.alarms_high_percent is None:
+        return f"{flights} of one run leaves everything open"
+    by_run = "" if line.runs == line.distinct_flights else f" of {count(line.runs)} runs"
+    why = (
+        " (about 3.7 in as many runs, for flights of one run are one witness)" if by_run else " (about 3.7 in as many)"
+    )
+    return f"{flights}{by_run} leaves up to {percent(line.alarms_high_percent)} %{why}"
 
 
 def _notes(line: Rank) -> str:
@@ -51,4 +67,6 @@ def _alarms(line: Rank) -> Cell:
     if not line.distinct_flights:
         return Cell(DASH, "no healthy stretch")
     high = f", ≤ {percent(line.alarms_high_percent)} %" if line.alarms_high_percent is not None else ""
-    return Cell(count(line.alarms), f"of {count(line.distinct_flights)} flights{high}", alarm=line.alarms > 0)
+    runs = f" of {count(line.runs)} run{'' if line.runs == 1 else 's'}" if line.runs != line.distinct_flights else ""
+    flights = f"of {count(line.distinct_flights)} flight{'' if line.distinct_flights == 1 else 's'}"
+    return Cell(count(line.alarms), f"{flights}{runs}{high}", alarm=line.alarms > 0)

@@ -28,14 +28,14 @@ function axis(times, limit) {
   return {a, log, ticks, x};
 }
 const R = v => Math.round(v * 10) / 10;
+const yaxis = (list, L, W, Y, mid, what) => list.map(p => `<path class="gl" d="M${L} ${Y(p)}h${W}"/><text class="ts" x="41" y="${Y(p) + 4}" text-anchor="end">${100 * p}</text>`).join('') + `<text class="ts" x="11" y="${mid}" text-anchor="middle" transform="rotate(-90 11 ${mid})">${what}</text>`;
+const xaxis = (A, X, L, W, B, what) => `<path class="ax" d="M${L} ${B}h${W}"/>` + A.ticks.map(v => `<path class="ax" d="M${X(v)} ${B}v4"/><text class="ts" x="${X(v)}" y="${B + 16}" text-anchor="middle">${tick(v)}</text>`).join('') + `<text class="ts" x="${L + W / 2}" y="${B + 31}" text-anchor="middle">${what}${A.log ? ', log' : ''}</text>`;
 function curve(s, d) {
   const S = D.s[s], own = D.c[s].map((c, j) => [j, c]).filter(([j, c]) => c && c.i && !state.off.has(j));
   if (!own.length) return '';
   const L = 46, T = 10, W = 500, H = 205, A = axis(own.flatMap(([, c]) => c.i[0]), S.l || 0);
   const X = v => R(L + W * A.x(v)), Y = p => R(T + H * (1 - p)), B = T + H;
-  let g = [0, .25, .5, .75, 1].map(p => `<path class="gl" d="M${L} ${Y(p)}h${W}"/><text class="ts" x="41" y="${Y(p) + 4}" text-anchor="end">${100 * p}</text>`).join('');
-  g += `<path class="ax" d="M${L} ${B}h${W}"/>` + A.ticks.map(v => `<path class="ax" d="M${X(v)} ${B}v4"/><text class="ts" x="${X(v)}" y="${B + 16}" text-anchor="middle">${tick(v)}</text>`).join('');
-  g += `<text class="ts" x="${L + W / 2}" y="${B + 31}" text-anchor="middle">time after onset [s]${A.log ? ', log' : ''}</text><text class="ts" x="11" y="${T + H / 2}" text-anchor="middle" transform="rotate(-90 11 ${T + H / 2})">flights [%]</text>`;
+  let g = yaxis([0, .25, .5, .75, 1], L, W, Y, T + H / 2, 'flights [%]') + xaxis(A, X, L, W, B, 'time after onset [s]');
   if (S.l) g += `<path class="lim" d="M${X(S.l)} ${T}v${H}"/>`;
   const steps = (c, k) => { let p = `M${X(A.a)} ${Y(0)}`; c.i[0].forEach((t, i) => p += `H${X(t)}V${Y(k[i] / c.n)}`); return p + `H${X(c.i[6])}`; };
   own.sort((p, q) => (p[0] === d) - (q[0] === d)).forEach(([j, c]) => {
@@ -54,7 +54,7 @@ function curve(s, d) {
 }
 function parts(name, labels, k, n, lo, hi, cls, what, foot) {
   const m = labels.length, W = Math.max(300, 52 * m + 50), w = (W - 56) / m, Y = p => R(8 + 96 * (1 - p));
-  let g = [0, .5, 1].map(p => `<path class="gl" d="M46 ${Y(p)}h${W - 56}"/><text class="ts" x="41" y="${Y(p) + 4}" text-anchor="end">${100 * p}</text>`).join('');
+  let g = yaxis([0, .5, 1], 46, W - 56, Y, 56, what);
   labels.forEach((v, i) => {
     const x = R(46 + w * (i + .5));
     if (n[i]) {
@@ -63,7 +63,21 @@ function parts(name, labels, k, n, lo, hi, cls, what, foot) {
     }
     g += `<text x="${x}" y="119" class="m z10">${esc(v)}</text><text class="ts m z10" x="${x}" y="133">${k[i]}/${n[i]}</text>`;
   });
-  return `<figure><svg viewBox="0 0 ${W} 155" role="img" aria-label="${esc(what + ' by ' + name)}">${g}<text x="${46 + (W - 56) / 2}" y="150" text-anchor="middle">${esc(name)}</text><text class="ts" x="11" y="56" text-anchor="middle" transform="rotate(-90 11 56)">${what}</text></svg><figcaption>${foot}</figcaption></figure>`;
+  return `<figure><svg viewBox="0 0 ${W} 155" role="img" aria-label="${esc(what + ' by ' + name)}">${g}<text x="${46 + (W - 56) / 2}" y="150" text-anchor="middle">${esc(name)}</text></svg><figcaption>${foot}</figcaption></figure>`;
+}
+function sized(k, cls, foot) {
+  const [name, , hit, n, lo, hi, , [mid, at, share, s90, top]] = k, L = 46, W = 310, T = 8, H = 120;
+  const A = axis([...mid, ...at, s90 || 0, top || 0], 0), X = v => R(L + W * A.x(v)), Y = p => R(T + H * (1 - p));
+  let g = yaxis([0, .5, .9], L, W, Y, T + H / 2, 'right [%]') + xaxis(A, X, L, W, T + H, esc(name));
+  g += `<path class="ik" d="M${at.map((v, i) => `${X(v)} ${Y(share[i] / 1000)}`).join('L')}"/>`;
+  [[s90, 'on'], [top, 'lim']].forEach(([v, c]) => { if (v !== null) g += `<path class="${c}" d="M${X(v)} ${T}v${H}"/>`; });
+  mid.forEach((v, i) => {
+    if (!n[i] || v === null) return;
+    const x = X(v), y = Y(hit[i] / n[i]);
+    if (lo[i] !== null) g += `<path class="e${cls}" d="M${x} ${Y(lo[i] / 100)}V${Y(hi[i] / 100)}"/>`;
+    g += `<circle class="d${cls}" cx="${x}" cy="${y}" r="3.5"><title>${hit[i]} of ${n[i]}</title></circle><text class="ts z9" ${y > 106 ? `x="${x - 6}" y="${y - 6}" text-anchor="end"` : `x="${x + 6}" y="${y + 14}"`}>${hit[i]}/${n[i]}</text>`;
+  });
+  return `<figure><svg viewBox="0 0 366 162" role="img" aria-label="${esc('right [%] by ' + name)}">${g}</svg><figcaption>${foot}</figcaption></figure>`;
 }
 function quality(c) {
   const heads = ['median [s]', '95 % [s]', 'max [s]', 'max / limit', 'isolated', 'most changes', 'bias of estimate', 'rms', 'healthy margin', 'bound [%]'];
@@ -82,7 +96,7 @@ function beside(c) {
   if (!c.b) return '';
   const [diff, lo, hi, p, a, b, n] = c.b;
   const best = esc(document.getElementById('detail').dataset.best || '');
-  const said = p !== null && p < .05 ? '' : ' Chance explains it.';
+  const said = p !== null && p < .05 ? '' : ' Chance may explain it.';
   return `<p>Beside ${best} on the same ${thin(n)} flights: ${diff > 0 ? '+' : ''}${diff} % right${lo === null ? '' : ` (${lo} to ${hi})`}; right here alone ${thin(b)}, there alone ${thin(a)}; McNemar by run, Holm over scenarios: p = ${p === null ? '–' : p}.${said}</p>`;
 }
 function detail() {
@@ -94,7 +108,10 @@ function detail() {
   let h = `<h2>${esc(S.n)} – ${esc(D.d[d])}</h2><p>${thin(c.n)} flown: ${said || 'nothing'}.${c.r.length ? ` Right: ${c.r[0]} % of the decided${c.r[1] ? ` (95 %: ${c.r[1]})` : ', one run has no interval'}${S.m ? `, pools ${esc(S.m)}, by run` : ''}.` : ''}${c.z ? ` Besides ${c.z[0]} infeasible, ${c.z[1]} failed; ${c.z[2]} departed.` : ''}</p>` + beside(c);
   h += '<div class="grid wide">' + (S.h ? '' : curve(s, d)) + (c.q ? declared(c) : '') + '</div>' + quality(c);
   if (c.a) h += '<h3>What goes with failure, strongest first</h3><div class="grid">' + c.a.map(([p, v, k, n, lo, hi]) => parts(S.p[p][0], S.p[p][1], k, n, lo, hi, 0, 'failed [%]', `association V = ${v} (0: chance, 1: decides)`)).join('') + '</div>';
-  if (c.k) h += '<h3>Found in time against the size of the fault</h3><div class="grid">' + parts(c.k[0], c.k[1], c.k[2], c.k[3], c.k[4], c.k[5], 2, 'right [%]', `${esc(c.k[6])} A fitted curve and its confidence: <code>fddbench pod ${esc(D.f)}</code>`) + '</div>';
+  if (c.k) {
+    const foot = `${esc(c.k[6])} ${c.k[7] ? 'Line: the fitted curve; dotted: found in 90 %; dashed: its upper end at 95 % confidence. ' : ''}Size as flown, in its own unit, not normalised. Every size: <code>fddbench pod ${esc(D.f)}</code>`;
+    h += '<h3>Found in time against the size of the fault</h3><div class="grid">' + (c.k[7] ? sized(c.k, 2, foot) : parts(...c.k.slice(0, 6), 2, 'right [%]', foot)) + '</div>';
+  }
   if (c.w) h += `<h3>${c.o.slice(1).some((k, i) => k && i !== 1) ? 'Worst flights' : 'Slowest flight'}</h3><p>${c.w.map(w => `<code>fddbench replay ${esc(D.f)} ${esc(S.n)}/${w} --plot flight.html</code>`).join('<br>')}</p>`;
   box.innerHTML = h;
   tools(box);

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-__all__ = ["TEXT_LIMIT", "die_with", "limit_memory", "new_luck", "print_little", "visible"]
+__all__ = ["TEXT_LIMIT", "die_with", "limit_data", "limit_memory", "new_luck", "print_little", "visible"]
 
 TEXT_LIMIT = 4000
 """Characters that a detector may print; what comes after is dropped."""
@@ -38,6 +38,18 @@ def limit_memory(more_mb: float) -> None:
         pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
         limit = pages * os.sysconf("SC_PAGE_SIZE") + int(more_mb * _MB)
         resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    except (ImportError, OSError, ValueError):
+        return
+
+
+def limit_data(most_gb: float) -> None:
+    """Write to at most so much memory of one's own, however much is only mapped; more is a MemoryError, where a system can."""
+    try:
+        import resource
+
+        limit = int(most_gb * 1024 * _MB)
+        resource.setrlimit(resource.RLIMIT_DATA, (limit, limit))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     except (ImportError, OSError, ValueError):
         return

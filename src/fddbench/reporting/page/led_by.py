@@ -1,0 +1,117 @@
+"""Sentences that come first where a campaign asks for more than the best: errors one at a time, quiet flights, print."""
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from fddbench.interfaces import Floats
+from fddbench.reporting.beside import Beside
+from fddbench.reporting.formats import percent, short
+from fddbench.reporting.labels import label
+from fddbench.reporting.page.answer import Loudest, Said
+from fddbench.reporting.page.columns import Columns
+
+__all__ = ["of_points", "of_print", "of_quiet"]
+
+_MOST_NAMED, _MOST_SCENARIOS, _PIECES = 2, 2, 5
+
+
+def of_quiet(about: str, loudest: Loudest | None) -> Said:
+    """``Yes with lpv_filter_approx: 72 of 200 healthy flights of descent have an alarm.``, where that is asked."""
+    if "look like a fault?" not in about:
+        return []
+    if loudest is None or not loudest.alarms:
+        return [("No healthy flight was taken for a fault. ", True)]
+    flights = f": {loudest.alarms} of {loudest.flights} healthy flights of {loudest.scenario} have an alarm. "
+    return [("Yes", True), (" with ", False), (loudest.detector, True), (flights, False)]
+
+
+def of_print(about: str, compared: Sequence[Beside], best: str) -> Said:
+    """How many printed scenarios come out as printed, where a campaign asks for a table in print."""
+    numbers = set(re.findall(r"\bTables? (\d+)", about.partition("?")[0] if "?" in about else ""))
+    found = next((each for each in compared if str(each.table.table) in numbers), None)
+    lines = [line for line in found.lines if line[1].text == best] if found is not None else []
+    if found is None or not lines:
+        return []
+    good = sum(not line[2].alarm for line in lines)
+    away = [_number(line[7].text) for line in lines if len(line) > 7 and _number(line[7].text) is not None]
+    near = sum(each is not None and abs(each) <= 1 for each in away)
+    times = f"; its median time is the printed one to a sample in {near} of {len(away)}" if away else ""
+    said = f" is right or quiet in all flights of {good} of {len(lines)} scenarios in print{times}. "
+    return [(f"Beside Table {found.table.table}: ", False), (best, True), (said, False)]
+
+
+def _number(text: str) -> float | None:
+    try:
+        return float(text.replace("−", "-").replace("\u202f", ""))
+    except ValueError:
+        return None
+
+
+def of_points(about: str, columns: Columns, sequence: Sequence[str]) -> Said:
+    """What the worst point of a sequence of errors costs beside its first point, of the estimate where that is asked for.
+
+    Parameters
+    ----------
+    about : str
+        What the campaign says of itself.
+    columns : Columns
+        The rows.
+    sequence : sequence of str
+        Columns of what the sequence varies.
+    """
+    names = {name: columns.numbers(name) for name in sequence}
+    point = columns.whole("point", np.arange(len(columns)))
+    points = np.unique(point)
+    if len(names) < _MOST_NAMED or len(points) < _MOST_NAMED + 1:
+        return []
+    of_estimate = re.search(r"\bestimates?\b", about.partition("?")[0]) is not None
+    return _estimate(columns, point, names) if of_estimate else _right(columns, point, names)
+
+
+def _estimate(columns: Columns, point: "np.ndarray[Any, Any]", names: Mapping[str, Floats]) -> Said:
+    """Of each scenario by itself: sites differ in their units."""
+    bias = np.where(columns.ok & columns.faulty, columns.numbers("estimate_bias"), np.nan)
+    said: Said = []
+    for s, scenario in enumerate(columns.scenarios):
+        own = np.where(columns.scenario == s, bias, np.nan)
+        if len(said) >= _MOST_SCENARIOS * _PIECES or np.isnan(own).all():
+            continue
+        at = int(np.nanargmax(np.abs(own)))
+        none = np.abs(own[(columns.detector == columns.detector[at]) & (point == point.min())])
+        beside = f", {short(float(np.nanmedian(none)))} where none is off" if not np.isnan(none).all() else ""
+        worst = f": bias {short(float(bias[at]))} of {columns.detectors[columns.detector[at]]}{beside}"
+        said += [("; " if said else "Estimates are most wrong in ", False), (scenario, True), (" with ", False),
+                 (_differing(point, names, int(point[at])), True), (worst, False)]  # fmt: skip
+    return [*said, (" (in the unit of each site). ", False)] if said else []
+
+
+def _right(columns: Columns, point: "np.ndarray[Any, Any]", names: Mapping[str, Floats]) -> Said:
+    right, sure = columns.texts("outcome") == "right", columns.decided & columns.faulty
+    worst: list[tuple[float, str, int, float, float]] = []
+    for d, name in enumerate(columns.detectors):
+        own = sure & (columns.detector == d)
+        shares = {int(p): 100.0 * float(right[own & (point == p)].mean()) for p in np.unique(point[own])}
+        if int(point.min()) in shares:
+            at, first = min(shares, key=lambda p: (shares[p], p)), shares[int(point.min())]
+            worst.append((shares[at] - first, name, at, first, shares[at]))
+    if not worst or min(worst)[0] >= 0.0:
+        return [("None of the errors costs any detector a fault. ", True)] if worst else []
+    most, least = min(worst), max(worst)
+    said: Said = [("Most is lost with ", False), (_differing(point, names, most[2]), True), (": right goes from ", False),
+                  (f"{percent(most[3])} to {percent(most[4])} %", True), (f" with {most[1]}", False)]  # fmt: skip
+    if least[1] != most[1]:
+        cost = "nothing costs" if least[0] >= 0.0 else f"the worst point costs {percent(-least[0])} % of"
+        said += [(f"; {cost} {least[1]}", False)]
+    return [*said, (". ", False)]
+
+
+def _differing(point: "np.ndarray[Any, Any]", names: Mapping[str, Floats], at: int) -> str:
+    """What a point has otherwise than the first one, in words; of many errors their number."""
+    here, first = point == at, point == point.min()
+    own = [(name, float(v[here][0])) for name, v in names.items() if not np.isclose(v[here][0], v[first][0])]
+    if len(own) > _MOST_NAMED:
+        return f"{len(own)} errors at once (point {at})"
+    return " and ".join(f"{label(name)} {short(value)}" for name, value in own) or f"point {at}"

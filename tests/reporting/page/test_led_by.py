@@ -1,0 +1,66 @@
+"""What comes first where a campaign asks for errors one at a time, for quiet flights, for a table in print."""
+
+from types import SimpleNamespace
+
+from fddbench.reporting.page.answer import Loudest
+from fddbench.reporting.page.columns import Columns
+from fddbench.reporting.page.led_by import of_points, of_print, of_quiet
+from fddbench.reporting.tables import Cell
+
+NAMES = ("p_mass_error_percent", "p_delta_c_y_percent")
+
+
+def text(said):
+    return "".join(piece for piece, _ in said)
+
+
+def points(told, outcome):
+    """Point 0 without an error, 1 with one of the mass, 2 with one of a coefficient."""
+    rows = told(("jam_a",), ("one", "other"), 30, lambda s, d, run: outcome(d, run % 3))
+    point = rows["run"].to_numpy(dtype=int) % 3
+    rows["point"], rows[NAMES[0]], rows[NAMES[1]] = point, (point == 1) * 10.0, (point == 2) * 5.0
+    return Columns(rows)
+
+
+def test_the_worst_error_stands_beside_none(told):
+    lost = points(told, lambda d, p: "missed" if d == "one" and p == 1 else "right")
+    said = text(of_points("What does it cost that the mass is off?", lost, NAMES))
+    assert said == ("Most is lost with mass error [%] 10: right goes from 100 to 0 % with one; nothing costs other. ")
+    none = points(told, lambda d, p: "right")
+    assert text(of_points("What?", none, NAMES)) == "None of the errors costs any detector a fault. "
+    assert of_points("What?", none, NAMES[:1]) == []
+
+
+def test_the_most_wrong_estimate_where_it_is_asked_for(told):
+    columns = points(told, lambda d, p: "right")
+    bias = columns.numbers("estimate_bias").copy()
+    bias[:] = 0.01
+    bias[(columns.whole("point", range(len(columns))) == 2) & (columns.detector == 1)] = -0.4
+    columns._known["estimate_bias"] = bias
+    said = text(of_points("What do errors do to each estimate?", columns, NAMES))
+    assert said.startswith(
+        "Estimates are most wrong in jam_a with delta c y [%] 5: bias -0.4 of other, 0.01 where none"
+    )
+
+
+def test_what_looks_like_a_fault_is_said():
+    loud = Loudest(detector="one", scenario="descent", alarms=72, flights=200)
+    assert text(of_quiet("Does a climb look like a fault?", loud)).startswith(
+        "Yes with one: 72 of 200 healthy flights of"
+    )
+    assert text(of_quiet("Does a climb look like a fault?", None)) == "No healthy flight was taken for a fault. "
+    assert of_quiet("Which is best?", loud) == []
+
+
+def test_print_is_counted_for_the_table_that_is_asked_for():
+    def line(scenario, detector, alarm, away):
+        return [Cell(scenario), Cell(detector), Cell("", alarm=alarm), *[Cell("1")] * 4, Cell(away), Cell("+9")]
+
+    lines = [line("jam_a", "one", False, "0"), line("jam_b", "one", True, "−3"), line("jam_a", "two", True, "0")]
+    compared = [SimpleNamespace(table=SimpleNamespace(table=8), lines=[*lines, line("healthy", "one", False, "–")])]
+    said = text(of_print("Do the gains give the published Table 8? Yes.", compared, "one"))
+    assert said == (
+        "Beside Table 8: one is right or quiet in all flights of 2 of 3 scenarios in print; its median time is the printed "
+        "one to a sample in 1 of 2. "
+    )
+    assert of_print("Do the gains hold? Table 8 is beside.", compared, "one") == []
