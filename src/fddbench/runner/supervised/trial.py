@@ -60,7 +60,7 @@ def read_safely(path: Path, overrides: Sequence[str] = ()) -> Campaign:
 def _harm(path: Path, overrides: Sequence[str]) -> str:
     """What the plug-ins of a campaign do to the process that reads it, in words; "" for nothing."""
     ours, theirs = os.pipe()
-    asked = json.dumps({"path": str(path), "overrides": list(overrides), "search": sys.path})
+    asked = json.dumps({"path": str(path), "overrides": list(overrides), "search": [str(each) for each in sys.path]})
     line = [sys.executable, "-m", "fddbench.runner.supervised.trial", str(theirs), str(os.getpid()), asked]
     process = subprocess.Popen(
         line, pass_fds=[theirs], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, start_new_session=True,
@@ -99,9 +99,8 @@ def _main(fd: int, parent: int, path: str, overrides: Sequence[str], search: Seq
     die_with(parent)
     print_little()
     limit_data(MOST_GB)
-    sys.path[:] = (
-        search  # now that what is ours is imported: a file of anybody's may be called as a module of Python is
-    )
+    # now that what is ours is imported: a file of anybody's may be called as a module of Python is
+    sys.path[:] = search
     word = _DONE
     try:
         for detector in assemble(read_campaign(Path(path), overrides)).detectors.values():
