@@ -190,3 +190,11 @@ def test_requirements_are_judged_by_the_runs_that_are_kept_whole(tmp_path, capsy
     said = capsys.readouterr().out
     assert "judged after the run by the first 2 runs" in said
     assert "All rows are counted; kept are 16, those of the first 2 runs, and of others those that fail" in said
+
+
+def test_a_folder_without_rows_says_so(folders, tmp_path):
+    own = shutil.copytree(folders / "failures", tmp_path / "own")
+    manifest.keep(own, ())
+    for read in (fddbench.load, fddbench.summary, fddbench.alarms, lambda path: fddbench.summary(path, by="run")):
+        with pytest.raises(ResultsError, match="holds no rows yet"):
+            read(own)
