@@ -198,3 +198,18 @@ def test_a_folder_without_rows_says_so(folders, tmp_path):
     for read in (fddbench.load, fddbench.summary, fddbench.alarms, lambda path: fddbench.summary(path, by="run")):
         with pytest.raises(ResultsError, match="holds no rows yet"):
             read(own)
+
+
+def test_a_campaign_of_no_more_runs_than_are_kept_keeps_all_and_says_nothing_else(folders, tmp_path, capsys):
+    path, own = _campaign(tmp_path / "few.yaml", "failures", _KEPT), tmp_path / "own"
+    assert main(["check", str(path)]) == 0
+    assert "All rows are kept: no scenario has more runs than kept_runs, 2" in capsys.readouterr().out
+    fddbench.run(path, own, jobs=1, backend="numpy")
+    first = fddbench.load(own)  # a warning would be an error
+    page = fddbench.report(own, replay=False).read_text()
+    assert "Not all rows are kept" not in page
+    assert fddbench.verify(own, refly=4, seed=1).rows == 8
+    fddbench.extend(own, runs=_RUNS, jobs=1, backend="numpy")
+    pd.testing.assert_frame_equal(read_rows(own), read_rows(folders / "failures"), check_exact=True)
+    pd.testing.assert_frame_equal(read_tallies(own), read_tallies(folders / "failures"), check_exact=True)
+    pd.testing.assert_frame_equal(read_rows(own, fair=True), first, check_exact=True)
