@@ -192,6 +192,13 @@ def test_requirements_are_judged_by_the_runs_that_are_kept_whole(tmp_path, capsy
     assert "All rows are counted; kept are 16, those of the first 2 runs, and of others those that fail" in said
 
 
+@pytest.mark.parametrize(("keep", "flights"), [("sample", 4 * _KEPT), ("failures", 4 * _RUNS)])
+def test_verify_flies_again_what_there_are_rows_to_compare_with(folders, keep, flights):
+    found = fddbench.verify(folders / keep, refly=99)
+    assert (found.flights, found.rows) == (flights, len(read_rows(folders / keep)))
+    assert found.sound
+
+
 def test_a_folder_without_rows_says_so(folders, tmp_path):
     own = shutil.copytree(folders / "failures", tmp_path / "own")
     manifest.keep(own, ())
