@@ -247,7 +247,7 @@ def _bill(plan: Plan, seconds: float, jobs: int) -> Iterator[str]:
     rows = f"{plan.n_cases:,} cases x {n} detector{'s' if n > 1 else ''} = {plan.n_rows:,} rows"
     yield f"{rows}, {flown / 3600:.4g} h of flight"
     if plan.n_kept < plan.n_rows:
-        more = "those that fail" if plan.campaign.keep == "failures" else "those without a score"
+        more = "those that fail" if plan.campaign.keep == "failures" else "those that end in an error"
         first = f"those of the first {plan.campaign.kept_runs} runs"
         yield f"All rows are counted; kept are {plan.n_kept:,}, {first}, and of others {more}"
     elif plan.campaign.keep != "all":
