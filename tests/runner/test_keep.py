@@ -129,6 +129,8 @@ def test_a_count_that_was_edited_is_found(folders, tmp_path):
     path.write_text(path.read_text().replace('"runs": 2', '"runs": 0'))
     with pytest.raises(ResultsError, match="kept"):
         fddbench.load(own)
+    path.write_text((folders / "sample" / "provenance.json").read_text().replace('"kept"', '"given_away"'))
+    assert any("its line says" in text for text in fddbench.verify(own).wrong)
 
 
 def test_more_runs_grow_to_the_folder_of_all_at_once(folders, tmp_path):
