@@ -98,8 +98,9 @@ def test_who_reads_rows_is_told_and_who_compares_takes_whole_runs(folders):
     ):
         rows = fddbench.load(folders / "failures")
     assert set(rows["run"]) > {0, 1}
-    with pytest.warns(PartialResultsWarning, match="only the rows of runs 0 to 1 are used"):
+    with pytest.warns(PartialResultsWarning, match="only the rows of runs 0 to 1 are used") as told:
         table = fddbench.compare(folders / "failures", detectors=["voting_monitor", "coast"])
+    assert len(told) == 1
     assert set(table["pairs"].dropna()) <= {_KEPT * 2}
     with pytest.warns(PartialResultsWarning, match="are used"):
         assert fddbench.summary(folders / "failures", by="p_v_cas_kt")["flights"].max() == _KEPT
