@@ -69,7 +69,8 @@ def compare(
         No folders of results, no such detector, or no flight that both hold: the same scenario, run, parameters and faults.
     """
     own = b is None
-    first, second = load(a, fair=True), load(a if b is None else b, fair=True)
+    first = load(a, fair=True)
+    second = first if b is None else load(b, fair=True)
     seeds = [provenance_of(Path(folder))["seed"] for folder in (a, a if b is None else b)]
     if seeds[0] != seeds[1]:
         raise FddbenchError(
