@@ -26,7 +26,7 @@ from fddbench.reporting.page.counted import COUNTED_HEADS, counted_lines
 from fddbench.reporting.page.courses import courses, loudest
 from fddbench.reporting.page.data import ReportData
 from fddbench.reporting.page.envelope import envelope_maps, envelope_pairs, infeasible_map
-from fddbench.reporting.page.led_by import of_points, of_print, of_quiet
+from fddbench.reporting.page.led_by import of_envelope, of_points, of_print, of_quiet
 from fddbench.reporting.page.matrix import matrix_lines
 from fddbench.reporting.page.operating import operating_scenes
 from fddbench.reporting.page.payload import payload
@@ -120,6 +120,8 @@ def _answer(report: ReportData, ranks: Sequence[Rank], columns: Columns, compare
     )
     first += of_quiet(about, loud)
     first += of_points(about, columns, [f"p_{name}" for name in varied if f"p_{name}" in report.rows])
+    best = ranks[0].number if ranks and ranks[0].decided else None
+    first += of_envelope(about, columns, report.envelope_axes, report.swept, best)
     first += of_print(about, compared, ranks[0].detector if ranks else "")
     second = second_beside_best(columns, ranks)
     what = report.operating is None and re.match(r"What (do|does|is left)\b|How\b|At which\b", about) is not None

@@ -1,4 +1,4 @@
-"""Sentences that come first where a campaign asks for more than the best: errors one at a time, quiet flights, print."""
+"""Sentences that come first where a campaign asks for more: errors one at a time, quiet flights, the envelope, print."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -8,12 +8,13 @@ import numpy as np
 
 from fddbench.interfaces import Floats
 from fddbench.reporting.beside import Beside
-from fddbench.reporting.formats import percent, short
+from fddbench.reporting.formats import count, percent, short
 from fddbench.reporting.labels import label
 from fddbench.reporting.page.answer import Loudest, Said
 from fddbench.reporting.page.columns import Columns
+from fddbench.reporting.page.envelope import envelope_pairs, worst_and_best
 
-__all__ = ["of_points", "of_print", "of_quiet"]
+__all__ = ["of_envelope", "of_points", "of_print", "of_quiet"]
 
 _MOST_NAMED, _MOST_SCENARIOS, _PIECES = 2, 2, 5
 
@@ -24,8 +25,36 @@ def of_quiet(about: str, loudest: Loudest | None) -> Said:
         return []
     if loudest is None or not loudest.alarms:
         return [("No healthy flight was taken for a fault. ", True)]
-    flights = f": {loudest.alarms} of {loudest.flights} healthy flights of {loudest.scenario} have an alarm. "
+    flights = (
+        f": {count(loudest.alarms)} of {count(loudest.flights)} healthy flights of {loudest.scenario} have an alarm. "
+    )
     return [("Yes", True), (" with ", False), (loudest.detector, True), (flights, False)]
+
+
+def of_envelope(
+    about: str, columns: Columns, axes: Sequence[tuple[str, str]], swept: Sequence[str], best: int | None
+) -> Said:
+    """Where in the first map of the envelope the best detector fails most and least, where a campaign asks for that.
+
+    Parameters
+    ----------
+    about : str
+        What the campaign says of itself.
+    columns : Columns
+        The rows.
+    axes, swept : sequences
+        As `envelope_pairs` takes them.
+    best : int or None
+        Number of the best detector; None: nothing is decided.
+    """
+    asked = re.match(r"Where\b[^?]*\benvelope\b", about) is not None and best is not None
+    pairs = envelope_pairs(columns, axes, swept) if asked else []
+    found = worst_and_best(columns, best, *pairs[0]) if pairs and best is not None else None
+    if found is None or best is None or not found[0].failed:
+        return []
+    most, least = (f"{count(each.failed)} of {count(each.decided)}" for each in found)
+    return [("Over the envelope ", False), (columns.detectors[best], True), (" fails most at ", False), (found[0].where, True),
+            (f": {most} faulty flights; least at {found[1].where}: {least}. ", False)]  # fmt: skip
 
 
 def of_print(about: str, compared: Sequence[Beside], best: str) -> Said:
