@@ -61,22 +61,15 @@ def of_print(about: str, compared: Sequence[Beside], best: str) -> Said:
     """How many printed scenarios come out as printed, where a campaign asks for a table in print."""
     numbers = set(re.findall(r"\bTables? (\d+)", about.partition("?")[0] if "?" in about else ""))
     found = next((each for each in compared if str(each.table.table) in numbers), None)
-    lines = [line for line in found.lines if line[1].text == best] if found is not None else []
+    lines = [line for line in found.told if line.detector == best] if found is not None else []
     if found is None or not lines:
         return []
-    good = sum(not line[2].alarm for line in lines)
-    away = [_number(line[7].text) for line in lines if len(line) > 7 and _number(line[7].text) is not None]
-    near = sum(each is not None and abs(each) <= 1 for each in away)
+    good = sum(line.sound for line in lines)
+    away = [line.away for line in lines if line.away is not None]
+    near = sum(abs(each) <= 1 for each in away)
     times = f"; its median time is the printed one to a sample in {near} of {len(away)}" if away else ""
     said = f" is right or quiet in all flights of {good} of {len(lines)} scenarios in print{times}. "
     return [(f"Beside Table {found.table.table}: ", False), (best, True), (said, False)]
-
-
-def _number(text: str) -> float | None:
-    try:
-        return float(text.replace("−", "-").replace("\u202f", ""))
-    except ValueError:
-        return None
 
 
 def of_points(about: str, columns: Columns, sequence: Sequence[str]) -> Said:
