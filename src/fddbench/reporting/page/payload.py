@@ -143,16 +143,15 @@ def fitted_of(own: SizeCurve) -> Fitted | None:
     if own.curve is None:
         return None
     sizes = np.geomspace(max(float(own.low[0]), 1e-12), float(own.high[-1]), _POINTS)
-    ends = [own.curve.size_90, own.curve.size_90_95]
+    near = [None if end is None or end > _FAR * sizes[-1] else end for end in (own.curve.size_90, own.curve.size_90_95)]
     return Fitted(
-        middles=own.middle.tolist(), sizes=sizes.tolist(), shares=own.curve.share(sizes).tolist(),
-        **{name: end if end is not None and end <= _FAR * sizes[-1] else None for name, end in zip(_NINETY, ends, strict=True)},
+        middles=own.middle.tolist(), sizes=sizes.tolist(), shares=own.curve.share(sizes).tolist(), size_90=near[0],
+        size_90_95=near[1],
     )  # fmt: skip
 
 
 _POINTS, _FAR = 25, 1.5
 """Points of a drawn curve; how far beyond the largest size flown its end may be drawn."""
-_NINETY = ("size_90", "size_90_95")
 
 
 def _short(value: float) -> float | None:
