@@ -16,6 +16,7 @@ from fddbench.reporting.page.envelope import envelope_pairs, worst_and_best
 
 __all__ = ["of_envelope", "of_points", "of_print", "of_quiet"]
 
+_LEAST_NAMES, _LEAST_POINTS = 2, 3
 _MOST_NAMED, _MOST_SCENARIOS, _PIECES = 2, 2, 5
 
 
@@ -84,30 +85,41 @@ def of_points(about: str, columns: Columns, sequence: Sequence[str]) -> Said:
     sequence : sequence of str
         Columns of what the sequence varies.
     """
+    if len(sequence) < _LEAST_NAMES:
+        return []
     names = {name: columns.numbers(name) for name in sequence}
     point = columns.whole("point", np.arange(len(columns)))
-    points = np.unique(point)
-    if len(names) < _MOST_NAMED or len(points) < _MOST_NAMED + 1:
+    if len(np.unique(point)) < _LEAST_POINTS:
         return []
     of_estimate = re.search(r"\bestimates?\b", about.partition("?")[0]) is not None
     return _estimate(columns, point, names) if of_estimate else _right(columns, point, names)
 
 
 def _estimate(columns: Columns, point: "np.ndarray[Any, Any]", names: Mapping[str, Floats]) -> Said:
-    """Of each scenario by itself: sites differ in their units."""
-    bias = np.where(columns.ok & columns.faulty, columns.numbers("estimate_bias"), np.nan)
+    """Of each scenario by itself, for sites differ in their units: the largest median of the bias at a point."""
     said: Said = []
     for s, scenario in enumerate(columns.scenarios):
-        own = np.where(columns.scenario == s, bias, np.nan)
-        if len(said) >= _MOST_SCENARIOS * _PIECES or np.isnan(own).all():
+        medians = {(d, p): m for d in range(len(columns.detectors)) for p, m in _biases(columns, s, d, point).items()}
+        if len(said) >= _MOST_SCENARIOS * _PIECES or not medians:
             continue
-        at = int(np.nanargmax(np.abs(own)))
-        none = np.abs(own[(columns.detector == columns.detector[at]) & (point == point.min())])
-        beside = f", {short(float(np.nanmedian(none)))} where none is off" if not np.isnan(none).all() else ""
-        worst = f": bias {short(float(bias[at]))} of {columns.detectors[columns.detector[at]]}{beside}"
+        d, at = max(medians, key=lambda each: abs(medians[each]))
+        none = medians.get((d, int(point.min())))
+        beside = "" if none is None else f", {short(none)} where none is off"
+        worst = f": bias {short(medians[d, at])} of {columns.detectors[d]}{beside}"
         said += [("; " if said else "Estimates are most wrong in ", False), (scenario, True), (" with ", False),
-                 (_differing(point, names, int(point[at])), True), (worst, False)]  # fmt: skip
-    return [*said, (" (in the unit of each site). ", False)] if said else []
+                 (_differing(point, names, at), True), (worst, False)]  # fmt: skip
+    return [*said, (" (medians of flights, in the unit of each site). ", False)] if said else []
+
+
+def _biases(columns: Columns, s: int, d: int, point: "np.ndarray[Any, Any]") -> dict[int, float]:
+    """Median of the bias of the estimate at each point, of a scenario and detector; without points that have none."""
+    places = columns.cell(s, d)
+    bias = columns.numbers("estimate_bias")[places]
+    known = places[columns.ok[places] & columns.faulty[places] & ~np.isnan(bias)]
+    return {
+        int(p): float(np.median(columns.numbers("estimate_bias")[known[point[known] == p]]))
+        for p in np.unique(point[known])
+    }
 
 
 def _right(columns: Columns, point: "np.ndarray[Any, Any]", names: Mapping[str, Floats]) -> Said:
