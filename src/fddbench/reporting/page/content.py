@@ -1,6 +1,5 @@
 """What stands in each section of the page."""
 
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -18,7 +17,7 @@ from fddbench.reporting.guarantees import guarantee_lines
 from fddbench.reporting.labels import OUTCOMES
 from fddbench.reporting.loads import load_heads, load_lines, measured_by
 from fddbench.reporting.page.answer import Said, answer
-from fddbench.reporting.page.asked import asked
+from fddbench.reporting.page.asked import asked, asks_of_what_varies
 from fddbench.reporting.page.cells import Cell, cells
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.page.convergence import convergence_scene
@@ -124,8 +123,8 @@ def _answer(report: ReportData, ranks: Sequence[Rank], columns: Columns, compare
     first += of_envelope(about, columns, report.envelope_axes, report.swept, best)
     first += of_print(about, compared, ranks[0].detector if ranks else "")
     second = second_beside_best(columns, ranks)
-    what = report.operating is None and re.match(r"What (do|does|is left)\b|How\b|At which\b", about) is not None
-    return first + answer(ranks, second, courses=courses(columns, report.swept), loudest=loud, along_first=what)
+    along = report.operating is None and asks_of_what_varies(about)
+    return first + answer(ranks, second, courses=courses(columns, report.swept), loudest=loud, along_first=along)
 
 
 _MOST_MAPS = 6
