@@ -185,10 +185,13 @@ def _more(report: ReportData, summary: pd.DataFrame, compared: Sequence[Beside])
 
 
 def _bounds(summary: pd.DataFrame, stated: pd.DataFrame | None) -> dict[str, Any]:
-    """What the ideal test finds, and the scores that are better than that; empty without a faulty scenario."""
+    """What the ideal test finds, and the scores that are better than that; where no scenario has a bound, why."""
+    found: dict[str, Any] = {"bounds": [], "bound_heads": HEADS, "unbounded": [], "breaches": []}
     if stated is None or stated.empty:
-        return {"bounds": [], "bound_heads": (), "breaches": []}
-    return {"bounds": bound_lines(stated), "bound_heads": HEADS, "breaches": breaches(summary, stated)}
+        return found
+    if stated["model"].isna().all():
+        return found | {"unbounded": list(stated["about"].unique())}
+    return found | {"bounds": bound_lines(stated), "breaches": breaches(summary, stated)}
 
 
 def _as_yaml(content: Mapping[str, Any]) -> str:
