@@ -66,19 +66,13 @@ class Fit:
 
     def share(self, x: Floats) -> Floats:
         """Share found at logarithms of sizes [-]."""
-        found: Floats = _share(x, self.m, self.s, self.floor, self.ceiling)
-        return found
+        return _bell(x, self.m, self.s, self.floor, self.ceiling)[2]
 
     def size_at(self, share: float) -> float | None:
         """Size at which the curve is there, None where it never is."""
         if not self.floor < share < self.ceiling:
             return None
         return float(np.exp(self.m + self.s * ndtri((share - self.floor) / (self.ceiling - self.floor))))
-
-
-def _share(x: Floats, m: float, s: float, floor: float, ceiling: float) -> Floats:
-    found: Floats = floor + (ceiling - floor) * ndtr((x - m) / s)
-    return found
 
 
 def chosen(flights: Flights) -> Fit:
