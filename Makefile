@@ -12,12 +12,12 @@ demo: $(VENV)/ready
 	$(BIN)/fddbench report results/smoke_6dof
 
 test: $(VENV)/ready-dev lint
-	$(BIN)/python -m pytest -n auto -m "not slow"
+	$(BIN)/python -m pytest -n auto --dist worksteal -m "not slow"
 
 # what takes minutes or needs a browser and compilers
 test-slow: $(VENV)/ready-dev
 	bash .ci/tools
-	$(BIN)/python -m pytest -n auto -m slow
+	$(BIN)/python -m pytest -n auto --dist worksteal -m slow
 
 lint: $(VENV)/ready-dev
 	$(BIN)/ruff format --check src tests detectors

@@ -5,6 +5,7 @@ Every message names the place, what was received, what is allowed and what to do
 """
 
 import dis
+import signal
 import sys
 import sysconfig
 import traceback
@@ -31,6 +32,7 @@ __all__ = [
     "place_of",
     "raise_interrupt",
     "reason_of",
+    "signal_name",
     "warn",
 ]
 
@@ -71,6 +73,18 @@ def reason_of(error: BaseException) -> str:
         text = "(its text cannot be made)"
     whole = f"{type(error).__name__}: {text}" if text else type(error).__name__
     return whole if len(whole) <= _LONGEST else whole[: _LONGEST - 3] + "..."
+
+
+def signal_name(number: int) -> str:
+    """Name of a signal that ended a process; of one without a name its number.
+
+    >>> signal_name(11), signal_name(40)
+    ('SIGSEGV', 'signal 40')
+    """
+    try:
+        return signal.Signals(number).name
+    except ValueError:  # those of real time
+        return f"signal {number}"
 
 
 def place_of(error: BaseException) -> str:

@@ -3,6 +3,7 @@
 import pytest
 import yaml
 
+from fddbench import gallery
 from fddbench.cli import main
 
 TUNING = """\
@@ -85,6 +86,17 @@ def test_a_file_is_not_replaced_by_mistake(folder, capsys):
 def test_mistakes(folder, capsys, argv, message):
     assert main(argv) == 2
     assert message in capsys.readouterr().err
+
+
+def test_of_an_unknown_design_those_of_ones_own_are_named_and_the_shipped_ones_counted(folder, capsys):
+    (folder / "detectors").mkdir()
+    (folder / "detectors" / "mine.yaml").write_text("kind: watcher\n")
+    shipped = len(list(gallery.folder("detectors").glob("*.yaml")))
+    assert main(["export", "voting_montor"]) == 2
+    assert (
+        f"no design is called 'voting_montor'. Did you mean 'voting_monitor'? Known: mine, {shipped} shipped designs "
+        "(`fddbench list designs`). Designs are files: put yours at detectors/voting_montor.yaml\n"
+    ) in capsys.readouterr().err
 
 
 YAW = """\

@@ -107,6 +107,19 @@ def test_the_worst_flights_come_first(folder, capsys):
     assert table["outcome"].tolist() == ["right", "right", "quiet"]
 
 
+def test_flights_without_a_score_are_no_worst_flights_but_for_their_reason(tmp_path):
+    """Nobody flies at 40,000 ft and 280 kt: half of the rows have no outcome."""
+    path, out = tmp_path / "high.yaml", tmp_path / "out"
+    path.write_text(
+        CAMPAIGN.replace("dispersions: {", "dispersions: {grid: {altitude_ft: [10000, 40000], v_cas_kt: [280]}, ")
+    )
+    fddbench.run(path, out, jobs=1)
+    assert set(fddbench.load(out)["status"]) == {"ok", "infeasible"}
+    found = fddbench.worst(out)
+    assert {"wrong_site", "right", "quiet"} <= set(found["outcome"])
+    assert {case.split("/")[1] for case in found["case"]} == {"0"}
+
+
 @pytest.mark.parametrize(
     ("argv", "message"),
     [

@@ -11,31 +11,17 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.runner.jammed import jammed
 
 import fddbench
 from fddbench.cli import main
 from fddbench.runner.shares import Shares
 
-CAMPAIGN = """\
-name: shared
-benchmark: yaw_rate
-seed: 7
-duration_s: 4.0
-dispersions:
-  monte_carlo: {runs: 40, mass_kg: {uniform: [180000, 220000]}}
-scenarios:
-  - {name: healthy, manoeuvre: cruise}
-  - name: jam_a
-    manoeuvre: cruise
-    faults: [{kind: jam, mode: replace, freeze: true, sites: [r1], onset_s: 1.0, end_s: 1.8}]
-detectors: [voting_monitor]
-"""
-
 
 @pytest.fixture
 def here(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    Path("shared.yaml").write_text(CAMPAIGN)
+    Path("shared.yaml").write_text(jammed("shared", duration_s=4.0))
     return tmp_path
 
 
@@ -82,7 +68,7 @@ def test_shards_in_any_order_are_the_campaign_flown_at_once(here, capsys):
     ],
 )
 def test_what_cannot_be_is_said_and_writes_nothing(here, capsys, command, said):
-    Path("other.yaml").write_text(CAMPAIGN.replace("seed: 7", "seed: 8"))
+    Path("other.yaml").write_text(jammed("shared", duration_s=4.0, seed=8))
     Path("full").mkdir()
     Path("full/mine.txt").write_text("mine")
     assert main(["plan", "shared.yaml", "--shards", "3", "--out", "planned"]) == 0
@@ -107,7 +93,7 @@ def test_the_job_of_slurm_names_what_it_flies(here, capsys):
 @pytest.mark.skipif(os.name != "posix", reason="signals and bash")
 def test_a_job_that_is_ended_is_requeued_and_goes_on(here, capsys):
     """Without the trap the shell ends by the signal (-15), the shard flies on without it, and nobody asks for another turn."""
-    Path("shared.yaml").write_text(CAMPAIGN.replace("runs: 40", "runs: 20000").replace("4.0", "20.0"))
+    Path("shared.yaml").write_text(jammed("shared", runs=20000, duration_s=20.0))
     main(["plan", "shared.yaml", "--shards", "1", "--out", "s"])
     capsys.readouterr()
     main(["slurm", "shared.yaml", "--shards", "1", "--out", "s"])

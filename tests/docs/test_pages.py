@@ -8,6 +8,8 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.reporting.page.test_shipped import SHIPPED
+from tests.runner.test_in_c import SHORT
 
 import fddbench
 from fddbench import gallery, kinds
@@ -110,6 +112,13 @@ def test_the_first_hour_has_at_most_fifteen_commands():
         line for language, _, text in _blocks("docs/first_hour.md") if language == "sh" for line in text.splitlines()
     ]
     assert len([line for line in lines if line.strip()]) <= 15
+
+
+def test_contributing_says_which_campaigns_are_flown_whole_and_which_in_part():
+    said = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8").split("Tests fly shipped campaigns in part.")[1]
+    pages, in_c, _ = re.split(r"As exported C:|What they must show:", said.split("\n\n")[0])
+    assert sorted(re.findall(r"`(\w+)`", pages)) == sorted(SHIPPED)
+    assert re.findall(r"`(\w+)`", in_c) == ["smoke", *SHORT]
 
 
 @pytest.mark.slow

@@ -3,7 +3,7 @@
 import pytest
 
 from fddbench.metrics.summary import summarize
-from fddbench.reporting.beside import beside
+from fddbench.reporting.beside import Told, beside
 from fddbench.reporting.published import published
 
 
@@ -25,6 +25,10 @@ def test_a_plain_name_stands_beside_every_variant(summary):
     assert (ours[4], ours[7]) == ("11 (0.3056)", "10 (0.2778)")
     assert int(ours[5].replace("\u2212", "-")) == int(ours[1]) - 11
     assert lines["healthy_cruise", "sliding_mode"][0] == "20 of 20"
+    assert [line[0].text for line in found.lines[2:]] == ["jam_b", "jam_b"]
+    assert found.told[0] == Told(detector="sliding_mode", sound=True, away=None)
+    assert found.told[2] == Told(detector="sliding_mode", sound=True, away=int(ours[1]) - 11)
+    assert not found.told[3].sound
 
 
 def test_what_was_not_right_is_said(summary):

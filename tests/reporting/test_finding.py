@@ -54,3 +54,9 @@ def test_of_many_detectors_the_first_and_the_last_are_named(make_rows):
     found = lines(make_rows(("jam_a",), tuple(f"d{i:02}" for i in range(20)), 2))
     assert "12 more between" in found["Right in time"]
     assert found["Right in time"].count("%") == 8
+
+
+def test_a_campaign_that_asks_nothing_leaves_no_blank_lines(make_rows):
+    rows = make_rows(("jam_a",), ("d",), 2)
+    found = finding_text(rows, summarize_alarms(rows), title="mine", question="")
+    assert found.startswith("# mine\n\n1. ")

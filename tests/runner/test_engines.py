@@ -9,6 +9,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
+from tests.runner.jammed import jammed
 from tests.runner.plugins import PLAIN, failing, write
 from tests.runner.tables import digest
 
@@ -23,26 +24,11 @@ from fddbench.runner.engines import Engine
 from fddbench.runner.run import run_campaign
 from fddbench.runner.work import Work
 
-CAMPAIGN = """\
-name: engines
-benchmark: yaw_rate
-seed: 7
-duration_s: 2.0
-dispersions:
-  monte_carlo: {runs: 40, mass_kg: {uniform: [180000, 220000]}}
-scenarios:
-  - {name: healthy, manoeuvre: cruise}
-  - name: jam_a
-    manoeuvre: cruise
-    faults: [{kind: jam, mode: replace, freeze: true, sites: [r1], onset_s: 1.0, end_s: 1.8}]
-detectors: [voting_monitor]
-"""
-
 
 @pytest.fixture(scope="module")
 def campaign(tmp_path_factory):
     path = tmp_path_factory.mktemp("engines") / "engines.yaml"
-    path.write_text(CAMPAIGN)
+    path.write_text(jammed("engines"))
     fddbench.run(path, path.parent / "clean", jobs=1)
     return path
 
@@ -163,7 +149,7 @@ def test_killed_workers_of_dask_lose_nothing(tmp_path):
     """Without the nanny's new workers, or the pool's new attempt, flights are missing."""
     pytest.importorskip("distributed")
     path = tmp_path / "engines.yaml"
-    path.write_text(CAMPAIGN.replace("runs: 40", "runs: 6000").replace("duration_s: 2.0", "duration_s: 6.0"))
+    path.write_text(jammed("engines", runs=6000, duration_s=6.0))
     psutil, killed = pytest.importorskip("psutil"), []
 
     def kill(progress):
@@ -210,7 +196,7 @@ def test_a_poisoned_flight_under_dask_is_a_row(tmp_path):
     if find_spec("fddbench.runner.supervised") is None:
         pytest.skip("detectors of ordinary Python fly in the worker itself")
     poison = failing("import os; os._exit(3)", "measured.mass_kg > 218000")
-    path = write(tmp_path, {"poison": poison}, text=CAMPAIGN.replace("[voting_monitor]", "[NAMES]"))
+    path = write(tmp_path, {"poison": poison}, text=jammed("engines", detectors="NAMES"))
     fddbench.run(path, tmp_path / "out", engine="dask")
     rows = fddbench.load(tmp_path / "out")
     heavy = rows["p_mass_kg"] > 218000

@@ -78,7 +78,7 @@ def test_rows_are_equal_bit_for_bit(campaign, tmp_path):
     assert events_of(tmp_path / "c").equals(events_of(tmp_path / "engine"))
     said = json.loads((tmp_path / "c" / "provenance.json").read_text())["flown_as_c"]
     assert set(said) == set(wanted["detector"].to_pylist())
-    assert all("-ffp-contract=off" in each for each in said.values())
+    assert all(each.endswith("-ffp-contract=off -fno-tree-slp-vectorize") for each in said.values())
 
 
 SANITIZERS = "-g -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all"
@@ -228,6 +228,16 @@ def test_a_flag_that_changes_bits_is_refused():
 def test_a_flag_beside_the_compiler_is_refused_too(flag):
     with pytest.raises(FddbenchError, match=f"{flag} would change the bits of a flight"):
         compiler(f"true {flag}")
+
+
+def test_all_flags_are_told_and_none_of_the_user_wins_over_what_forbids_contraction(monkeypatch):
+    monkeypatch.setenv("CFLAGS", "-O3 -ftree-slp-vectorize")
+    compiler.cache_clear()
+    try:
+        said = str(compiler("true"))
+    finally:
+        compiler.cache_clear()
+    assert said.endswith(", -std=c99 -O2 -O3 -ftree-slp-vectorize -ffp-contract=off -fno-tree-slp-vectorize")
 
 
 def test_a_folder_without_a_cache_is_gone_when_the_process_ends(tmp_path):

@@ -98,8 +98,9 @@ def test_who_reads_rows_is_told_and_who_compares_takes_whole_runs(folders):
     ):
         rows = fddbench.load(folders / "failures")
     assert set(rows["run"]) > {0, 1}
-    with pytest.warns(PartialResultsWarning, match="only the rows of runs 0 to 1 are used"):
+    with pytest.warns(PartialResultsWarning, match="only the rows of runs 0 to 1 are used") as told:
         table = fddbench.compare(folders / "failures", detectors=["voting_monitor", "coast"])
+    assert len(told) == 1
     assert set(table["pairs"].dropna()) <= {_KEPT * 2}
     with pytest.warns(PartialResultsWarning, match="are used"):
         assert fddbench.summary(folders / "failures", by="p_v_cas_kt")["flights"].max() == _KEPT
@@ -129,6 +130,8 @@ def test_a_count_that_was_edited_is_found(folders, tmp_path):
     path.write_text(path.read_text().replace('"runs": 2', '"runs": 0'))
     with pytest.raises(ResultsError, match="kept"):
         fddbench.load(own)
+    path.write_text((folders / "sample" / "provenance.json").read_text().replace('"kept"', '"given_away"'))
+    assert any("its line says" in text for text in fddbench.verify(own).wrong)
 
 
 def test_more_runs_grow_to_the_folder_of_all_at_once(folders, tmp_path):
@@ -190,3 +193,33 @@ def test_requirements_are_judged_by_the_runs_that_are_kept_whole(tmp_path, capsy
     said = capsys.readouterr().out
     assert "judged after the run by the first 2 runs" in said
     assert "All rows are counted; kept are 16, those of the first 2 runs, and of others those that fail" in said
+
+
+@pytest.mark.parametrize(("keep", "flights"), [("sample", 4 * _KEPT), ("failures", 4 * _RUNS)])
+def test_verify_flies_again_what_there_are_rows_to_compare_with(folders, keep, flights):
+    found = fddbench.verify(folders / keep, refly=99)
+    assert (found.flights, found.rows) == (flights, len(read_rows(folders / keep)))
+    assert found.sound
+
+
+def test_a_folder_without_rows_says_so(folders, tmp_path):
+    own = shutil.copytree(folders / "failures", tmp_path / "own")
+    manifest.keep(own, ())
+    for read in (fddbench.load, fddbench.summary, fddbench.alarms, lambda path: fddbench.summary(path, by="run")):
+        with pytest.raises(ResultsError, match="holds no rows yet"):
+            read(own)
+
+
+def test_a_campaign_of_no_more_runs_than_are_kept_keeps_all_and_says_nothing_else(folders, tmp_path, capsys):
+    path, own = _campaign(tmp_path / "few.yaml", "failures", _KEPT), tmp_path / "own"
+    assert main(["check", str(path)]) == 0
+    assert "All rows are kept: no scenario has more runs than kept_runs, 2" in capsys.readouterr().out
+    fddbench.run(path, own, jobs=1, backend="numpy")
+    first = fddbench.load(own)  # a warning would be an error
+    page = fddbench.report(own, replay=False).read_text()
+    assert "Not all rows are kept" not in page
+    assert fddbench.verify(own, refly=4, seed=1).rows == 8
+    fddbench.extend(own, runs=_RUNS, jobs=1, backend="numpy")
+    pd.testing.assert_frame_equal(read_rows(own), read_rows(folders / "failures"), check_exact=True)
+    pd.testing.assert_frame_equal(read_tallies(own), read_tallies(folders / "failures"), check_exact=True)
+    pd.testing.assert_frame_equal(read_rows(own, fair=True), first, check_exact=True)

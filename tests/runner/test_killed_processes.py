@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
+from tests.runner.jammed import jammed
 from tests.runner.plugins import PLAIN, write
 from tests.runner.tables import digest
 
@@ -19,20 +20,6 @@ pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc"),
 ]
-CAMPAIGN = """\
-name: killed
-benchmark: yaw_rate
-seed: 7
-duration_s: 6.0
-dispersions:
-  monte_carlo: {runs: RUNS, mass_kg: {uniform: [180000, 220000]}}
-scenarios:
-  - {name: healthy, manoeuvre: cruise}
-  - name: jam_a
-    manoeuvre: cruise
-    faults: [{kind: jam, mode: replace, freeze: true, sites: [r1], onset_s: 1.0, end_s: 1.8}]
-detectors: [NAMES]
-"""
 
 
 def below(mark):
@@ -74,7 +61,7 @@ def flown_while_killing(path, out, options, word, kills, chance, least=1):
 @pytest.fixture(scope="module")
 def campaign(tmp_path_factory):
     path = tmp_path_factory.mktemp("killed") / "killed.yaml"
-    path.write_text(CAMPAIGN.replace("RUNS", "8000").replace("NAMES", "voting_monitor"))
+    path.write_text(jammed("killed", runs=8000, duration_s=6.0))
     fddbench.run(path, path.parent / "clean", jobs=1)
     return path
 
@@ -103,7 +90,7 @@ def test_workers_of_loky_that_are_always_killed_end_the_run_and_it_goes_on(campa
 @pytest.mark.parametrize("seed", [1, 2])
 def test_killed_processes_of_a_supervised_detector_lose_nothing(tmp_path, seed):
     """Servers, stages and flight processes alike. Seen to fail with one try of a flight (`verdicts._TRIES`): crashed rows."""
-    path = write(tmp_path, {"plain": PLAIN}, text=CAMPAIGN.replace("RUNS", "24"))
+    path = write(tmp_path, {"plain": PLAIN}, text=jammed("killed", runs=24, duration_s=6.0, detectors="NAMES"))
     fddbench.run(path, tmp_path / "clean", jobs=1)
     code, said, killed = flown_while_killing(
         path, tmp_path / "out", ["--jobs", "1"], "supervised.server", 4, random.Random(seed), least=3

@@ -3,6 +3,7 @@
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.runner.jammed import jammed
 from tests.runner.plugins import HEAD
 
 import fddbench
@@ -10,20 +11,6 @@ from fddbench.cli import main
 from fddbench.results.manifest import shards
 from fddbench.results.whole import holdings
 
-CAMPAIGN = """\
-name: parts
-benchmark: yaw_rate
-seed: 7
-duration_s: 2.0
-dispersions:
-  monte_carlo: {runs: 4, mass_kg: {uniform: [180000, 220000]}}
-scenarios:
-  - {name: healthy, manoeuvre: cruise}
-  - name: jam_a
-    manoeuvre: cruise
-    faults: [{kind: jam, mode: replace, freeze: true, sites: [r1], onset_s: 1.0, end_s: 1.8}]
-detectors: [voting_monitor, sliding_mode_published]
-"""
 FRAGILE = """
 import os
 
@@ -43,7 +30,7 @@ class Mine(Base):
 @pytest.fixture(scope="module")
 def campaign(tmp_path_factory):
     path = tmp_path_factory.mktemp("parts") / "parts.yaml"
-    path.write_text(CAMPAIGN)
+    path.write_text(jammed("parts", runs=4, detectors="voting_monitor, sliding_mode_published"))
     return path
 
 
@@ -92,7 +79,7 @@ def fragile(tmp_path):
         "kind: fragile.py:Mine\nabout: a test\nsource: me\ntuned_on: null\ngains: {}\n"
     )
     path = tmp_path / "fragile.yaml"
-    path.write_text(CAMPAIGN.replace("sliding_mode_published", "fragile"))
+    path.write_text(jammed("parts", runs=4, detectors="voting_monitor, fragile"))
     return path
 
 

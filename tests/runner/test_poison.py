@@ -62,6 +62,7 @@ HARMS = {
     "exits": ("os._exit(3)", "crashed", "crashed: it ended its process with exit code 3"),
     "segfaults": ("ctypes.string_at(0)", "crashed", "crashed: its process died of SIGSEGV"),
     "aborts": ("os.abort()", "crashed", "crashed: its process died of SIGABRT"),
+    "dies_of_a_number": ("os.kill(os.getpid(), 40)", "crashed", "crashed: its process died of signal 40"),
     "kills_its_parent": ("os.kill(os.getppid(), signal.SIGKILL)\n            signal.pause()", "crashed", "crashed: "),
     "closes": ("os.closerange(0, 1024)", "crashed", "crashed: it closed files that are not its own"),
     "hangs": ("while True: pass", "timeout", "timeout: a step took longer than 1 s"),

@@ -57,10 +57,12 @@ def designs_as_written(folder: Path) -> dict[str, DesignFile]:
     FddbenchError
         No folder of results, or a file is no design.
     """
-    found: dict[str, DesignFile] = {}
-    for name in provenance_of(folder)["designs_sha256"]:
-        found[name] = _valid(read_yaml(folder / "detectors" / f"{name.split('.')[0]}.yaml"), DesignFile)
-    return found
+    bases = {name: name.split(".")[0] for name in provenance_of(folder)["designs_sha256"]}
+    files = {
+        base: _valid(read_yaml(folder / "detectors" / f"{base}.yaml"), DesignFile)
+        for base in dict.fromkeys(bases.values())
+    }
+    return {name: files[base] for name, base in bases.items()}
 
 
 def in_sample_as_written(folder: Path) -> tuple[str, ...]:

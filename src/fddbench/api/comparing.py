@@ -11,6 +11,7 @@ import pyarrow as pa
 from fddbench.errors import FddbenchError
 from fddbench.metrics.paired import holm, paired_shares, paired_times
 from fddbench.metrics.shares import column
+from fddbench.reporting.labels import of_a_fault
 from fddbench.results.folder import provenance_of
 from fddbench.results.table import load
 
@@ -69,7 +70,8 @@ def compare(
         No folders of results, no such detector, or no flight that both hold: the same scenario, run, parameters and faults.
     """
     own = b is None
-    first, second = load(a, fair=True), load(a if b is None else b, fair=True)
+    first = load(a, fair=True)
+    second = first if b is None else load(b, fair=True)
     seeds = [provenance_of(Path(folder))["seed"] for folder in (a, a if b is None else b)]
     if seeds[0] != seeds[1]:
         raise FddbenchError(
@@ -148,7 +150,7 @@ def _pairs(first: pd.DataFrame, second: pd.DataFrame, wanted: Sequence[str], *, 
 
 def _keys(first: pd.DataFrame, second: pd.DataFrame) -> list[str]:
     """Columns that make a flight the same one: scenario, run, parameters, and what was drawn or swept of the faults."""
-    varied = [name for name in first.columns if name.startswith("p_") or (name[:1] == "f" and name[1:2].isdigit())]
+    varied = [name for name in first.columns if name.startswith("p_") or of_a_fault(name)]
     return ["scenario", "run", *(name for name in varied if name in second.columns)]
 
 

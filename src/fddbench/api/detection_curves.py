@@ -12,6 +12,7 @@ from pandas.api.types import is_bool_dtype, is_numeric_dtype
 from fddbench.errors import FddbenchError, did_you_mean
 from fddbench.metrics.shares import column, decided, flown_of
 from fddbench.reporting.found_by_size import curve_of, sizes_among
+from fddbench.reporting.labels import of_a_fault
 from fddbench.results.table import load
 
 __all__ = ["CURVES", "pod"]
@@ -56,7 +57,7 @@ def pod(folder: str | Path, size: str = "") -> pd.DataFrame:
         No folder of results, no such column, or no fault with a size that differs.
     """
     rows = load(folder, fair=True)
-    sizes = [name for name in rows.columns if name[:1] == "f" and name[1:2].isdigit()]
+    sizes = [name for name in rows.columns if of_a_fault(name)]
     if size and size not in rows.columns:
         hint = did_you_mean(size, sizes)
         raise FddbenchError(

@@ -11,7 +11,7 @@ from fddbench.designs.design import Design
 from fddbench.errors import DesignError
 from fddbench.exported.child import Child, main_text
 from fddbench.exported.code import Code, code_of, sources, with_vectors
-from fddbench.exported.compiling import built, compiler
+from fddbench.exported.compiling import built, compiler, selftest_command
 from fddbench.exported.flown_c import FlownC
 from fddbench.exported.interface import Interface, interface_of
 from fddbench.exported.symbols import library, require_symbols
@@ -111,7 +111,6 @@ def _about(design: Design, interface: Interface, campaign: str) -> list[str]:
     tuned = "; ".join(
         f"{each.campaign} ({each.seed})" if hasattr(each, "seed") else str(each) for each in design.tuned_on
     )
-    flags = "-std=c99 -O2 -ffp-contract=off"
     return [
         f"{design.about or design.kind.name}: the detector {design.name} ({design.kind.name}) of fddbench "
         f"{version_of('fddbench')}, design sha256 {design.sha256[:16]}, for the signals of {campaign}, a step every "
@@ -120,7 +119,7 @@ def _about(design: Design, interface: Interface, campaign: str) -> list[str]:
         f"Tuned on: {tuned or 'nothing'}.",
         "It is the same detector as in the campaign, operation by operation: compiled without contraction it gives the same "
         "bits on every machine with IEEE 754. No heap, no recursion, no loop that depends on data.",
-        f"Self-test: cc {flags} {interface.name}.c {interface.name}_selftest.c -lm && ./a.out",
+        f"Self-test: {selftest_command(interface.name)}",
     ]
 
 

@@ -9,6 +9,7 @@ from fddbench.campaign.meaning import Campaign
 from fddbench.campaign.rules.model import CampaignFile
 from fddbench.errors import ResultsError
 from fddbench.reporting.finding import finding_text
+from fddbench.reporting.labels import of_a_fault
 from fddbench.results.folder import provenance_of
 from fddbench.results.kept import kept_of
 from fddbench.results.whole import require_whole
@@ -63,7 +64,7 @@ def swept_columns(rows: pd.DataFrame, campaign: Campaign | CampaignFile) -> list
 
 def _swept(name: str, campaign: Campaign | CampaignFile) -> bool:
     """Whether a column holds what the grid or a sweep of a fault varies."""
-    return name.removeprefix("p_") in campaign.dispersions.grid or (name[:1] == "f" and name[1:2].isdigit())
+    return name.removeprefix("p_") in campaign.dispersions.grid or of_a_fault(name)
 
 
 def _question(campaign: Campaign) -> str:

@@ -197,11 +197,16 @@ def _seconds(rows: pd.DataFrame) -> dict[str, float]:
 
 
 def _flat(provenance: Mapping[str, object]) -> dict[str, str]:
-    """Provenance as text, nested entries by dotted names; of the source its fingerprint is enough."""
+    """Provenance as text, nested entries by dotted names; of the source its fingerprint is enough, loads have a table."""
     flat: dict[str, str] = {}
     for name, value in provenance.items():
-        if isinstance(value, Mapping) and name not in {"source", "load_in_c"}:
+        if isinstance(value, Mapping) and name == "flights":  # one a scenario: a line each would fill a sheet
+            flat[name] = ", ".join(f"{scenario} {n}" for scenario, n in value.items())
+        elif isinstance(value, Mapping) and name not in _NOT_FLAT:
             flat |= {f"{name}.{inner}": str(entry) for inner, entry in value.items()}
-        elif name not in {"source", "load_in_c"}:
+        elif name not in _NOT_FLAT:
             flat[name] = str(value)
     return flat
+
+
+_NOT_FLAT = {"source", "load_in_c"}

@@ -56,8 +56,9 @@ def summary(folder: str | Path, by: str | Sequence[str] = (), *, bins: int = _BI
     own = in_sample(folder)
     if not columns:
         if kept_of(Path(folder)) is not None:
+            counted = overview(Path(folder))[0]
             table.warn_if_partial(Path(folder), counted=True)
-            return overview(Path(folder))[0]
+            return counted
         return summarize(table.load(folder, ["case", *NEEDS]), in_sample=own)
     rows = table.load(folder, fair=True)
     for name in columns:

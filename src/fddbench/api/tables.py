@@ -55,8 +55,9 @@ def alarms(folder: str | Path) -> pd.DataFrame:
     """One line per detector: false alarms of its distinct flights; columns of `fddbench.metrics.alarms.ALARMS`."""
     path = Path(folder)
     if kept_of(path) is not None:
+        counted = tallied_alarms(read_tallies(path), in_sample=in_sample(folder))
         table.warn_if_partial(path, counted=True)
-        return tallied_alarms(read_tallies(path), in_sample=in_sample(folder))
+        return counted
     return summarize_alarms(table.load(folder, ["case", *NEEDS]), in_sample=in_sample(folder))
 
 

@@ -63,7 +63,8 @@ def verify(
     folder : str or Path
         Folder of results, one's own or somebody else's; it is not written to. Flying again runs its plug-ins.
     refly : int
-        How many flights, drawn at random from those it holds; all of them where there are fewer.
+        How many flights, drawn at random from those it holds (of ``keep: sample`` from those whose rows it keeps); all of them
+        where there are fewer.
     seed : int, optional
         Of that draw; another one every time by default.
 
@@ -82,9 +83,11 @@ def verify(
     found.other_program = other_program(path, campaign)
     numbering = Numbering(provenance_of(path))
     held = np.flatnonzero(numbering.held(shards(path)).all(axis=0))
-    chosen = np.sort(np.random.default_rng(seed).choice(held, min(refly, len(held)), replace=False))
     flyer = rehearsed(Flyer(assemble(campaign)), notice)
     there, keeps = read_rows(path), kept_of(path)
+    if keeps is not None and not keeps.failures:  # of the other runs there is nothing to compare with
+        held = held[flyer.assembly.plan.locate(held).run < keeps.runs]
+    chosen = np.sort(np.random.default_rng(seed).choice(held, min(refly, len(held)), replace=False))
     for first in range(0, len(chosen), _AT_ONCE):
         some = chosen[first : first + _AT_ONCE]
         again, events = rows_and_events(flyer, some)

@@ -77,7 +77,7 @@ def _counted(folder: Path, rows: pd.DataFrame, detectors: Sequence[str]) -> Iter
 def _of_one(group: pd.DataFrame, most: int) -> Iterator[tuple[int, dict[str, Any]]]:
     """Flights to look at of one scenario and detector, with the rank of what went wrong."""
     for rank, (wanted, by, smallest, words) in enumerate(_KINDS):
-        chosen = group[np.asarray(wanted(group), dtype=bool)]
+        chosen = group[wanted(group).to_numpy(dtype=bool, na_value=False)]  # null: no score, no outcome
         if by:
             value = chosen[by].to_numpy(dtype=float, na_value=np.nan)
             order = np.argsort(np.nan_to_num(value if smallest else -value, nan=np.inf), kind="stable")

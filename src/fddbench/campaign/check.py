@@ -186,7 +186,7 @@ def _rest(plan: Plan) -> Iterator[str]:
     for name in dict.fromkeys(design.base for design in plan.campaign.designs):
         yield from _design([design for design in plan.campaign.designs if design.base == name])
     if plan.campaign.requirements:
-        few = "" if plan.campaign.keep == "all" else f" by the first {plan.campaign.kept_runs} runs"
+        few = "" if plan.n_kept == plan.n_rows else f" by the first {plan.campaign.kept_runs} runs"
         yield f"Required of them, judged after the run{few}"
     for entry in plan.campaign.requirements:
         who = f": {', '.join(entry.detectors)}" if entry.detectors else ""
@@ -243,23 +243,16 @@ def _design(variants: Sequence[Design]) -> Iterator[str]:
 def _bill(plan: Plan, seconds: float, jobs: int) -> Iterator[str]:
     n = len(plan.campaign.designs)
     flown = sum(scenario.flown_s for scenario in plan.scenarios)
-    kept = _kept_rows(plan)
-    disk = kept * _BYTES_PER_ROW + _BYTES_PER_FOLDER
+    disk = plan.n_kept * _BYTES_PER_ROW + _BYTES_PER_FOLDER
     rows = f"{plan.n_cases:,} cases x {n} detector{'s' if n > 1 else ''} = {plan.n_rows:,} rows"
     yield f"{rows}, {flown / 3600:.4g} h of flight"
-    if plan.campaign.keep != "all":
-        more = "those that fail" if plan.campaign.keep == "failures" else "those without a score"
+    if plan.n_kept < plan.n_rows:
+        more = "those that fail" if plan.campaign.keep == "failures" else "those that end in an error"
         first = f"those of the first {plan.campaign.kept_runs} runs"
-        yield f"All rows are counted; kept are {kept:,}, {first}, and of others {more}"
+        yield f"All rows are counted; kept are {plan.n_kept:,}, {first}, and of others {more}"
+    elif plan.campaign.keep != "all":
+        yield f"All rows are kept: no scenario has more runs than kept_runs, {plan.campaign.kept_runs}"
     yield f"About {duration(seconds)} with {jobs} jobs, and {_size(disk)} on disk"
-
-
-def _kept_rows(plan: Plan) -> int:
-    """Rows that are kept at least."""
-    if plan.campaign.keep == "all":
-        return plan.n_rows
-    runs = [(s.n_points * s.n_levels, min(s.n_runs, plan.campaign.kept_runs)) for s in plan.scenarios]
-    return sum(places * n for places, n in runs) * len(plan.campaign.designs)
 
 
 def duration(seconds: float) -> str:

@@ -128,6 +128,14 @@ class Plan:
         """Rows of the result table: cases x detectors."""
         return self.n_cases * len(self.campaign.designs)
 
+    @property
+    def n_kept(self) -> int:
+        """Rows that are kept whatever is in them: all, or those of the first runs of every scenario."""
+        if self.campaign.keep == "all":
+            return self.n_rows
+        most = self.campaign.kept_runs
+        return sum(s.n_points * s.n_levels * min(s.n_runs, most) for s in self.scenarios) * len(self.campaign.designs)
+
     @cached_property
     def columns(self) -> tuple[str, ...]:
         """Columns of what differs between the faults of flights, ``f1_amplitude_percent``, of all scenarios."""

@@ -15,6 +15,7 @@ def export(args: argparse.Namespace) -> int:
     the campaign bit for bit. A library of allowed symbols, --symbols, refuses a detector that needs more.
     """
     from fddbench.api.exporting import export as exported
+    from fddbench.exported.compiling import selftest_command
 
     output = args.output or Path(args.design)
     code = exported(
@@ -32,8 +33,7 @@ def export(args: argparse.Namespace) -> int:
     if code.loss:
         said = ", ".join(f"{key} {value:.2g}" for key, value in code.loss.items())
         print(f"single precision against double, on the vectors: {said}")
-    compiled = f"cc -std=c99 -O2 -ffp-contract=off {name}.c {name}_selftest.c -lm"
-    print(f"test it: cd {shlex.quote(str(output))} && {compiled} && ./a.out")
+    print(f"test it: cd {shlex.quote(str(output))} && {selftest_command(name)}")
     return 0
 
 

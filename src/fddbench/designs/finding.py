@@ -29,7 +29,7 @@ def find_design(name: str, campaign_folder: Path) -> Path:
     Raises
     ------
     FddbenchError
-        There is none; the message lists the known ones.
+        There is none; the message names the nearest known one and all that are not shipped.
     """
     for folder in _folders(campaign_folder):
         path = folder / f"{name}.yaml"
@@ -39,7 +39,19 @@ def find_design(name: str, campaign_folder: Path) -> Path:
     parts = [
         f"no design is called {name!r}.",
         did_you_mean(name, known),
-        f"Known: {', '.join(known) or 'none'}.",
+        f"Known: {_in_words(known)}.",
         f"Designs are files: put yours at {_folders(campaign_folder)[0] / name}.yaml",
     ]
     raise FddbenchError(" ".join(filter(None, parts)))
+
+
+def _in_words(known: list[str]) -> str:
+    """Names of one's own, and where to read those that are shipped, in a line that can be read."""
+    try:
+        shipped = {path.stem for path in gallery.folder("detectors").glob("*.yaml")}
+    except FddbenchError:
+        shipped = set()
+    named = [name for name in known if name not in shipped]
+    if shipped:
+        named.append(f"{len(shipped)} shipped designs (`fddbench list designs`)")
+    return ", ".join(named) or "none"

@@ -2,7 +2,6 @@
 
 import os
 import select
-import signal
 import struct
 import subprocess
 from pathlib import Path
@@ -10,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from fddbench.errors import FddbenchError
+from fddbench.errors import FddbenchError, signal_name
 
 __all__ = ["IMPATIENT_S", "Child", "CodeError", "HungError", "main_text"]
 
@@ -202,5 +201,5 @@ class Child:
     def _ended(self) -> CodeError:
         code = self._process.wait()
         if code < 0:
-            return CodeError(f"the code crashed: {signal.Signals(-code).name}")
+            return CodeError(f"the code crashed: {signal_name(-code)}")
         return CodeError(f"the code ended its process with {code}; a step only returns")

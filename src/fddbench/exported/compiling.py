@@ -15,14 +15,12 @@ from pathlib import Path
 from fddbench import private
 from fddbench.errors import FddbenchError
 
-__all__ = ["FLAGS", "STRICT", "UNCONTRACTED", "CompileError", "Compiler", "built", "compiler"]
+__all__ = ["CompileError", "Compiler", "built", "compiler", "selftest_command"]
 
-FLAGS = ("-std=c99", "-O2", "-ffp-contract=off")
+_FLAGS = ("-std=c99", "-O2")
 """How an exported file is compiled for flights."""
-UNCONTRACTED = ("-ffp-contract=off", "-fno-tree-slp-vectorize")
+_UNCONTRACTED = ("-ffp-contract=off", "-fno-tree-slp-vectorize")
 """What forbids contraction: GCC 12 at -O3 -march=native fuses a product with alternating sums in spite of the first alone."""
-STRICT = ("-Wall", "-Wextra", "-Werror", "-pedantic")
-"""Under which it gives no warning."""
 _CHANGES_BITS = re.compile(
     r"-ffast-math|-Ofast|-ffp-contract=(?!off)|-funsafe-math-optimizations|-fassociative-math|-freciprocal-math"
     r"|-ffinite-math-only|-fno-signed-zeros|-mfpmath=(?!sse$)|-ffp-model=(?!strict|precise)|^-m32$|-mno-sse"
@@ -46,12 +44,12 @@ class Compiler:
     version : str
         First line of what it says of itself.
     flags : tuple of str
-        How it compiles.
+        How it compiles, all of them.
     """
 
     command: tuple[str, ...]
     version: str
-    flags: tuple[str, ...] = FLAGS
+    flags: tuple[str, ...]
 
     def __str__(self) -> str:
         """Compiler and flags, for a line of a report."""
@@ -67,7 +65,7 @@ def compiler(command: str = "", flags: tuple[str, ...] = ()) -> Compiler:
     command : str
         Name or path, with arguments if it needs some ("zig cc").
     flags : tuple of str
-        Behind the usual ones, and behind ``$CFLAGS``.
+        Behind the usual ones and ``$CFLAGS``; behind them all what forbids contraction, so that none of them wins.
 
     Raises
     ------
@@ -79,7 +77,7 @@ def compiler(command: str = "", flags: tuple[str, ...] = ()) -> Compiler:
     if not found or shutil.which(found[0]) is None:
         what = f"no compiler {wanted!r} is here" if wanted else "no C compiler is here (looked for cc, gcc and clang)"
         raise CompileError(f"{what}; install one (Debian: apt-get install gcc; PyPI: ziglang), or name it: CC=clang")
-    own = (*FLAGS, *shlex.split(os.environ.get("CFLAGS", "")), *flags)
+    own = (*_FLAGS, *shlex.split(os.environ.get("CFLAGS", "")), *flags)
     refused = [flag for flag in (*found[1:], *own) if _CHANGES_BITS.search(flag)]
     if refused:
         raise CompileError(f"{' '.join(refused)} would change the bits of a flight; take it out of CC or CFLAGS")
@@ -87,7 +85,12 @@ def compiler(command: str = "", flags: tuple[str, ...] = ()) -> Compiler:
         said = subprocess.run([*found, "--version"], capture_output=True, text=True, timeout=60, check=False)
     except (OSError, subprocess.TimeoutExpired) as error:
         raise CompileError(f"{found[0]} does not say who it is: {error}") from error
-    return Compiler(found, (said.stdout or said.stderr).split("\n")[0].strip() or found[0], own)
+    return Compiler(found, (said.stdout or said.stderr).split("\n")[0].strip() or found[0], (*own, *_UNCONTRACTED))
+
+
+def selftest_command(name: str) -> str:
+    """How a user compiles and runs the self-test of an export in its folder; at plain -O2 one flag is enough."""
+    return f"cc {' '.join(_FLAGS)} {_UNCONTRACTED[0]} {name}.c {name}_selftest.c -lm && ./a.out"
 
 
 def built(sources: Mapping[str, str], by: Compiler, main: Sequence[str] = ()) -> Path:
@@ -124,8 +127,7 @@ def compile_in(where: Path, by: Compiler, files: Sequence[str], output: str) -> 
     CompileError
         What the compiler says.
     """
-    # last, so that no flag before them wins
-    command = [*by.command, *by.flags, *UNCONTRACTED, "-o", output, *files, "-lm"]
+    command = [*by.command, *by.flags, "-o", output, *files, "-lm"]
     try:
         said = subprocess.run(command, cwd=where, capture_output=True, text=True, timeout=_LONGEST_S, check=False)
     except (OSError, subprocess.TimeoutExpired) as error:

@@ -1,6 +1,7 @@
 """The search for the bell curve of greatest likelihood over the logarithm of a size, between a floor and a ceiling.
 
-Gradients are those of the formula; a search begins at the best of some widths and ends at three places.
+Gradients are those of the formula. A search begins at the best of some widths and ends at three places, and at the best step
+between two sizes: where few flights lie on its slope, a steep curve is a hollow of its own.
 """
 
 from collections.abc import Callable
@@ -36,13 +37,12 @@ class Flights:
             place = np.minimum(((x - sizes[0]) / self.span * _MOST_SIZES).astype(np.int64), _MOST_SIZES - 1)
             place = np.unique(place, return_inverse=True)[1]
         self.n = np.bincount(place).astype(np.float64)
-        self.k = np.bincount(place, weights=y)
+        self.k = np.bincount(place, weights=y).astype(np.float64)
         self.x = np.bincount(place, weights=x) / self.n
 
     def log_likelihood(self, share: Floats) -> float:
         """Of shares found at each size, (n_sizes,)."""
-        p = np.clip(share, _TINY, 1.0 - _TINY)
-        return float(np.sum(self.k * np.log(p) + (self.n - self.k) * np.log1p(-p)))
+        return float(np.sum(_binomial(self.k, self.n, share)))
 
     def slopes(self, share: Floats, by: list[Floats]) -> Floats:
         """Gradient of the likelihood, of those of the share by each coordinate."""
@@ -66,19 +66,13 @@ class Fit:
 
     def share(self, x: Floats) -> Floats:
         """Share found at logarithms of sizes [-]."""
-        found: Floats = _share(x, self.m, self.s, self.floor, self.ceiling)
-        return found
+        return _bell(x, self.m, self.s, self.floor, self.ceiling)[2]
 
     def size_at(self, share: float) -> float | None:
         """Size at which the curve is there, None where it never is."""
         if not self.floor < share < self.ceiling:
             return None
         return float(np.exp(self.m + self.s * ndtri((share - self.floor) / (self.ceiling - self.floor))))
-
-
-def _share(x: Floats, m: float, s: float, floor: float, ceiling: float) -> Floats:
-    found: Floats = floor + (ceiling - floor) * ndtr((x - m) / s)
-    return found
 
 
 def chosen(flights: Flights) -> Fit:
@@ -110,7 +104,7 @@ def _fitted(flights: Flights, *, floored: bool, capped: bool) -> Fit:
     ends = [
         [low] * floored + [high] * capped for low in ((-2.0, 0.0)[: 1 + floored]) for high in ((2.0, 0.0)[: 1 + capped])
     ]
-    found = _least(flights, cost, extra=ends)
+    found = _least(flights, cost, ends, _step(flights, floored=floored, capped=capped))
     (m, s), (floor, cap, _) = _middle(found.x), _ends(found.x[2:], floored, capped, 0.9)
     return Fit(flights, floored, capped, m, s, floor, floor + (1.0 - floor) * cap, -float(found.fun))
 
@@ -143,7 +137,19 @@ def _bell(x: Floats, m: float, s: float, floor: float, ceiling: float) -> tuple[
     return u, np.exp(-0.5 * u * u) / np.sqrt(2.0 * np.pi), floor + (ceiling - floor) * ndtr(u)
 
 
-def _least(flights: Flights, cost: Cost, *, extra: list[list[float]]) -> Any:
+def _step(flights: Flights, *, floored: bool, capped: bool) -> list[float]:
+    """Where the best step between two neighbouring sizes is, as the middle of a curve, and its free ends as coordinates."""
+    below, n_below = np.cumsum(flights.k)[:-1], np.cumsum(flights.n)[:-1]
+    above, n_above = np.sum(flights.k) - below, np.sum(flights.n) - n_below
+    low = below / n_below if floored else np.zeros(len(below))
+    high = above / n_above if capped else np.ones(len(below))
+    likelihood = _binomial(below, n_below, low) + _binomial(above, n_above, high)
+    at = int(np.argmax(np.where(high > low, likelihood, -np.inf)))
+    ends = [_logit(low[at] / 0.9)] * floored + [_logit((high[at] - low[at]) / max(1.0 - low[at], _TINY))] * capped
+    return [float(flights.x[at] + flights.x[at + 1]) / 2.0, *ends]
+
+
+def _least(flights: Flights, cost: Cost, extra: list[list[float]], step: list[float]) -> Any:
     """Best of several searches."""
     low, high = flights.x[0] - 3.0 * flights.span, flights.x[-1] + 3.0 * flights.span
     bounds = [(low, high), (np.log(1e-3), np.log(10.0 * flights.span)), *[(-9.0, 9.0)] * len(extra[0])]
@@ -159,12 +165,26 @@ def _least(flights: Flights, cost: Cost, *, extra: list[list[float]]) -> Any:
         )
         for place in np.quantile(flights.x, (0.2, 0.5, 0.8)).tolist()
     ]
+    begins.append(np.array([step[0], np.log(0.02 * flights.span), *step[1:]]))
     found = [minimize(cost, begin, jac=True, method="L-BFGS-B", bounds=bounds) for begin in begins]
     return min(found, key=lambda one: float(one.fun))
 
 
+def _binomial(k: Floats, n: Floats, share: Floats) -> Floats:
+    """Logarithm of the likelihood of k hits of n, but for what does not depend on the share."""
+    p = np.clip(share, _TINY, 1.0 - _TINY)
+    found: Floats = k * np.log(p) + (n - k) * np.log1p(-p)
+    return found
+
+
 def _logistic(z: float) -> float:
     return float(1.0 / (1.0 + np.exp(-z)))
+
+
+def _logit(share: float) -> float:
+    """Coordinate of a share, within the bounds of a search."""
+    p = min(max(share, 1e-3), 1.0 - 1e-3)
+    return float(np.log(p / (1.0 - p)))
 
 
 def profile(fit: Fit, x90: float) -> float:
@@ -189,4 +209,7 @@ def profile(fit: Fit, x90: float) -> float:
     extra = [-2.0] * fit.floored + [1.0] * fit.capped
     bounds = [(np.log(1e-3), np.log(10.0 * flights.span)), *[(-9.0, 9.0)] * len(extra)]
     begins = [[np.log(width * flights.span), *extra] for width in (0.05, 0.3)] + [[np.log(max(fit.s, 2e-3)), *extra]]
+    if fit.capped:  # a ceiling just above 90 % is a hollow of its own
+        own = [*([_logit(fit.floor / 0.89)] * fit.floored), -6.0]
+        begins += [[np.log(width * flights.span), *own] for width in (0.05, 0.15)]
     return max(-float(minimize(cost, each, jac=True, method="L-BFGS-B", bounds=bounds).fun) for each in begins)

@@ -2,6 +2,7 @@
 
 What needs every row is left out or bounded on the safe side: a share or rate that pools points or levels counts as if all
 flights of an aircraft told the same, ``n_eff`` its runs less one (`fddbench.metrics.clustered`); estimates have no median.
+Flights that scenarios share are those of the scenario that is watched longest (`tallied_alarms`).
 """
 
 from collections.abc import Collection, Iterator

@@ -11,7 +11,7 @@ from fddbench.reporting.formats import DASH, count, present, signed
 from fddbench.reporting.published import Published, PublishedRow
 from fddbench.reporting.tables import Cell
 
-__all__ = ["Beside", "beside"]
+__all__ = ["Beside", "Told", "beside"]
 
 _OTHERS = {
     "wrong_site": "wrong",
@@ -25,15 +25,35 @@ Line = dict[Any, Any]
 
 
 @dataclass(frozen=True, kw_only=True)
+class Told:
+    """What a line of the table says in numbers.
+
+    Attributes
+    ----------
+    detector : str
+        Whose line it is.
+    sound : bool
+        Whether all decided flights are right, of a healthy scenario all flown ones quiet.
+    away : int or None
+        Median detection time less that in print, of the first group [samples]; None: one of them is none.
+    """
+
+    detector: str
+    sound: bool
+    away: int | None
+
+
+@dataclass(frozen=True, kw_only=True)
 class Beside:
     """A printed table, the groups of its columns by their heads, lines of cells (ours, then three a group), and what is apart.
 
-    `apart` are scenarios that are in print but were flown under other conditions, with what differs in words.
+    `told` are the lines in numbers, `apart` scenarios in print that were flown under other conditions, with what differs.
     """
 
     table: Published
     groups: tuple[str, ...]
     lines: list[list[Cell]]
+    told: Sequence[Told]
     apart: tuple[tuple[str, str], ...] = ()
 
 
@@ -55,7 +75,7 @@ def beside(summary: pd.DataFrame, table: Published, campaign: Mapping[str, Any] 
         groups, ours = ("in print",), [line for line in every if line["scenario"] in named]
     if not ours:
         return None
-    lines, apart = [], {}
+    lines, told, apart = [], [], {}
     for line in ours:
         rows: list[PublishedRow | None] = (
             [named[line["scenario"]]] if not loose else _rows_of(line, table, named, groups)
@@ -65,8 +85,9 @@ def beside(summary: pd.DataFrame, table: Published, campaign: Mapping[str, Any] 
             apart[str(line["scenario"])] = ", ".join(differ)
         else:
             lines.append(_line(line, table, rows))
+            told.append(_told(line, table, rows[0]))
     heads = tuple(table.variants[name] for name in groups) if loose else groups
-    return Beside(table=table, groups=heads, lines=lines, apart=tuple(apart.items()))
+    return Beside(table=table, groups=heads, lines=lines, told=told, apart=tuple(apart.items()))
 
 
 def _rows_of(
@@ -91,13 +112,29 @@ def _line(line: Line, table: Published, rows: list[PublishedRow | None]) -> list
     ]
 
 
+def _told(line: Line, table: Published, printed: PublishedRow | None) -> Told:
+    ours = _samples(line["detection_time_median_s"], table.sample_s)
+    theirs = None if printed is None else printed.detection_time_samples
+    away = None if ours is None or theirs is None else ours - theirs
+    return Told(detector=str(line["detector"]), sound=not _fails(line), away=away)
+
+
+def _good(line: Line) -> tuple[str, str]:
+    """Column of what went well, and of what it is a share of."""
+    return ("quiet", "flown") if line["healthy"] else ("right", "decided")
+
+
+def _fails(line: Line) -> bool:
+    good, of = _good(line)
+    return bool(line[of]) and line[good] < line[of]
+
+
 def _right(line: Line) -> Cell:
     """How many were right of those decided (quiet of those flown), and what became of the others."""
-    good, of = ("quiet", "flown") if line["healthy"] else ("right", "decided")
+    good, of = _good(line)
     others = [f"{count(line[name])} {word}" for name, word in _OTHERS.items() if present(line[name]) and line[name]]
     lost = [f"{count(line[name])} {name}" for name in ("infeasible", "failed") if line[name]]
-    wrong = bool(line[of]) and line[good] < line[of]
-    return Cell(f"{count(line[good])} of {count(line[of])}", ", ".join([*others, *lost]), alarm=wrong)
+    return Cell(f"{count(line[good])} of {count(line[of])}", ", ".join([*others, *lost]), alarm=_fails(line))
 
 
 def _printed(median: int | None, largest: int | None, row: PublishedRow | None) -> list[Cell]:

@@ -68,7 +68,7 @@ def finding_text(
     lines += _slowest(groups)
     lines += _not_flown(rows)
     numbered = "".join(f"{i}. {line}\n" for i, line in enumerate(lines[:MOST_LINES], 1))
-    return f"# {title}\n\n{question}\n\n{numbered}" + (f"\n{footer}\n" if footer else "")
+    return "\n\n".join(filter(None, [f"# {title}", question, numbered])) + (f"\n{footer}\n" if footer else "")
 
 
 def _called(in_sample: Collection[str]) -> Callable[[str], str]:

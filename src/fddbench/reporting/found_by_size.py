@@ -8,6 +8,7 @@ import numpy.typing as npt
 
 from fddbench.interfaces import Floats
 from fddbench.metrics.detection_curve import LEAST, DetectionCurve, detection_curve
+from fddbench.reporting.labels import of_a_fault
 from fddbench.units import unit_of_name
 
 __all__ = ["curve_of", "in_words", "no_curve", "sizes_among"]
@@ -21,7 +22,7 @@ def sizes_among(columns: Iterable[str]) -> list[str]:
     >>> sizes_among(["run", "f1_amplitude_deg", "f1_onset_s", "f2_rate_deg_s"])
     ['f1_amplitude_deg', 'f2_rate_deg_s']
     """
-    numbers = [name for name in columns if name[:1] == "f" and name[1:2].isdigit()]
+    numbers = [name for name in columns if of_a_fault(name)]
     return [name for name in numbers if not name.endswith("_s") or name.endswith(_RATES)]
 
 

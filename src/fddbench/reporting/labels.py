@@ -1,14 +1,25 @@
 """What readers see instead of the names of columns."""
 
+import re
+
 from fddbench.units import suffix_of_name, unit_of_name
 
-__all__ = ["OUTCOMES", "label"]
+__all__ = ["OUTCOMES", "label", "of_a_fault"]
 
 OUTCOMES = {
     "right": "right in time", "quiet": "quiet", "late": "late", "undecided": "undecided", "missed": "missed",
     "wrong_site": "healthy site declared", "false_alarm": "alarm before onset",
 }  # fmt: skip
 """Outcomes in words."""
+
+
+def of_a_fault(name: str) -> bool:
+    """Whether a column holds a number of a fault, one that is drawn or swept.
+
+    >>> of_a_fault("f1_loss_percent"), of_a_fault("fault"), of_a_fault("p_f1_ratio")
+    (True, False, False)
+    """
+    return re.match(r"f\d+_", name) is not None
 
 
 def label(name: str) -> str:
@@ -18,7 +29,7 @@ def label(name: str) -> str:
     ('reconstruction [deg/s]', 'mass [kg]', 'n declared', 'fault 1 loss [%]')
     """
     name = name.removeprefix("p_")
-    if name[:1] == "f" and name[1:2].isdigit() and "_" in name:
+    if of_a_fault(name):
         number, _, rest = name[1:].partition("_")
         return f"fault {number} {label(f'p_{rest}')}"
     unit, suffix = unit_of_name(name), suffix_of_name(name)

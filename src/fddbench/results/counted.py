@@ -9,7 +9,7 @@ import pyarrow.compute as pc
 from fddbench.results.folder import provenance_of
 from fddbench.results.shards import open_table, read_columns
 from fddbench.results.stages import Numbering
-from fddbench.results.table import as_of_today, files
+from fddbench.results.table import as_of_today, files, without_rows
 from fddbench.results.tallies import TALLIES, added
 
 __all__ = ["read_tallies"]
@@ -29,10 +29,12 @@ def read_tallies(folder: Path) -> pd.DataFrame:
         file = open_table(path, sha256, schema=TALLIES, fingerprint=fingerprint)
         table = read_columns(path, file, TALLIES.names).cast(TALLIES)
         found.append(as_of_today(table, TALLIES.names, numbering.points_of(fingerprint)).cast(TALLIES))
+    if not found:
+        raise without_rows(folder)
     whole = added(found)
     order = {"scenario": list(provenance["flights"]), "detector": list(provenance["designs_sha256"])}
-    places = {name: pc.index_in(whole[name], value_set=pa.array(names, pa.string())) for name, names in order.items()}
-    for name, place in places.items():
+    for name, names in order.items():
+        place = pc.index_in(whole[name], value_set=pa.array(names, pa.string()))
         whole = whole.append_column(f"{name}_place", place)
     keys = ["scenario_place", "point", "level", "detector_place"]
     ordered = whole.sort_by([(name, "ascending") for name in [*keys, "status", "outcome", "detection_time_s"]])

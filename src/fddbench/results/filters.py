@@ -11,7 +11,7 @@ import pyarrow.compute as pc
 
 from fddbench.errors import ResultsError, did_you_mean
 
-__all__ = ["Condition", "Filter", "filter_of", "require_columns"]
+__all__ = ["Condition", "Filter", "filter_of", "listed", "require_columns"]
 
 Condition = tuple[str, str, Any]
 
@@ -91,7 +91,7 @@ def filter_of(conditions: Sequence[Condition] | None, known: Sequence[str]) -> F
     if conditions is None:
         return None
     wrong, parts, names = list[str](), [], list[str]()
-    for number, condition in enumerate(_listed(conditions), start=1):
+    for number, condition in enumerate(listed(conditions), start=1):
         reason = _wrong(condition, known)
         if not reason:
             try:
@@ -106,7 +106,14 @@ def filter_of(conditions: Sequence[Condition] | None, known: Sequence[str]) -> F
     return Filter(tuple(dict.fromkeys(names)), reduce(operator.and_, parts)) if parts else None
 
 
-def _listed(conditions: Any) -> Sequence[Any]:
+def listed(conditions: Any) -> Sequence[Any]:
+    """Conditions as a list, of one alone too.
+
+    Raises
+    ------
+    ResultsError
+        They are no list.
+    """
     if isinstance(conditions, (str, bytes)) or not isinstance(conditions, Sequence):
         raise ResultsError(f'filters are a list of (column, operator, value), [("run", "<", 10)]; got {conditions!r}')
     return [conditions] if _is_condition(conditions) else conditions

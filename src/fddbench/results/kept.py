@@ -1,9 +1,9 @@
 """Campaigns that do not keep all their rows: which they keep, and what may be concluded from these.
 
 All rows are flown and counted (`fddbench.results.tallies`). Kept are those of the first runs of every scenario, which are a
-campaign by themselves, drawn like the whole; every other row that could not be scored; and, where that is asked for, those that
-were scored and are wrong. Rates,
-intervals and comparisons come from the tallies or from the first runs alone, never from rows kept because they failed.
+campaign by themselves, drawn like the whole (of ``sampling: table`` they are its first rows); every other row that ended in an
+error; and, where that is asked for, those that were scored and are wrong. Rates, intervals and comparisons come from the
+tallies or from the first runs alone, never from rows kept because they failed.
 """
 
 from collections.abc import Mapping
@@ -33,20 +33,20 @@ class Kept:
     runs : int
         First runs of every scenario of which all rows are.
     failures : bool
-        Whether, of other runs, beside rows without a score those are whose outcome is a false alarm, a wrong site, late or
-        missed.
+        Whether, of other runs, beside rows that ended in an error (`fddbench.results.schema.FAILED`) those are whose outcome
+        is a false alarm, a wrong site, late or missed.
 
     Examples
     --------
     >>> print(Kept(runs=100, failures=False))
-    the rows of runs 0 to 99, and of others those without a score
+    the rows of runs 0 to 99, and of others those that ended in an error
     """
 
     runs: int
     failures: bool
 
     def __str__(self) -> str:
-        more = "those that failed" if self.failures else "those without a score"
+        more = "those that failed" if self.failures else "those that ended in an error"
         return f"{self.first}, and of others {more}"
 
     @property

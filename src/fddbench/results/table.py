@@ -12,7 +12,7 @@ import pyarrow as pa
 import pyarrow.compute as pc
 
 from fddbench.errors import PartialResultsWarning, ResultsError, warn
-from fddbench.results.filters import Condition, Filter, filter_of, require_columns
+from fddbench.results.filters import Condition, Filter, filter_of, listed, require_columns
 from fddbench.results.folder import provenance_of
 from fddbench.results.kept import kept_of
 from fddbench.results.manifest import shards
@@ -32,6 +32,7 @@ __all__ = [
     "read_in_parts",
     "read_rows",
     "warn_if_partial",
+    "without_rows",
 ]
 
 _MANY = 50_000  # rows: about 10 MB of what a summary needs
@@ -106,18 +107,18 @@ def read_rows(
         As `load`.
     """
     known = column_names(folder)
-    if columns is not None and known:
+    if not known:
+        raise without_rows(folder)
+    if columns is not None:
         require_columns(columns, known)
-    kept = kept_of(folder) if fair else None
-    if kept is not None:
-        filters = [*(filters or ()), ("run", "<", kept.runs)]
-    chosen = filter_of(filters, known)
+    chosen = filter_of([*listed(filters or []), *(_fair(folder) if fair else [])], known)
     return _sorted(folder, "rows", columns, chosen)
 
 
-def _fair(folder: Path, known: Sequence[str]) -> Filter | None:
+def _fair(folder: Path) -> list[Condition]:
+    """Conditions of rows that rates may be taken of."""
     kept = kept_of(folder)
-    return filter_of([("run", "<", kept.runs)], known) if kept else None
+    return [] if kept is None else [("run", "<", kept.runs)]
 
 
 def column_names(folder: Path) -> list[str]:
@@ -154,7 +155,7 @@ def read_events(folder: Path, columns: Sequence[str] | None = None, *, fair: boo
     ResultsError
         As `load`.
     """
-    return _sorted(folder, "events", columns, _fair(folder, EVENTS.names) if fair else None)
+    return _sorted(folder, "events", columns, filter_of(_fair(folder), EVENTS.names) if fair else None)
 
 
 def named(table: pa.Table) -> pa.Table:
@@ -200,8 +201,8 @@ def _sorted(folder: Path, which: str, columns: Sequence[str] | None = None, only
 def _places(folder: Path, keys: Mapping[str, pa.ChunkedArray]) -> pa.Array:
     """Places of the rows in order: scenarios and detectors as the campaign has them."""
     provenance, by = provenance_of(folder), dict(keys)
-    for name, listed in (("scenario", "flights"), ("detector", "designs_sha256")):
-        order: Any = provenance.get(listed) or pc.unique(keys[name]).to_pylist()
+    for name, key in (("scenario", "flights"), ("detector", "designs_sha256")):
+        order: Any = provenance.get(key) or pc.unique(keys[name]).to_pylist()
         by[name] = pc.index_in(keys[name], value_set=pa.array(list(order), pa.string()))
     return pc.sort_indices(pa.table(by), sort_keys=[(name, "ascending") for name in by])
 
@@ -232,7 +233,7 @@ def _read(folder: Path, which: str, wanted: Sequence[str] | None, chosen: Filter
             table = as_of_today(table, names, points)
             tables.append(_chosen(table, chosen) if chosen else table)
     if not tables and which == "rows":
-        raise ResultsError(f"{folder} holds no rows yet; run the campaign first")
+        raise without_rows(folder)
     try:
         return pa.concat_tables(tables or [EVENTS.empty_table()])
     except pa.ArrowException as error:
@@ -260,6 +261,11 @@ def as_of_today(table: pa.Table, names: Sequence[str], points: npt.NDArray[np.in
 
 def _keys_in(names: Sequence[str]) -> list[str]:
     return [name for name in _KEYS if name in names]
+
+
+def without_rows(folder: Path) -> ResultsError:
+    """What is said of a folder without any."""
+    return ResultsError(f"{folder} holds no rows yet; run the campaign first")
 
 
 def _different(folder: Path) -> ResultsError:

@@ -68,7 +68,7 @@ def provenance_for(plan: Plan, fingerprint: Fingerprint) -> dict[str, object]:
     campaign = plan.campaign
     notes: Any = getattr(plan.plant, "notes", None)
     logs = {} if notes is None else {"logs": notes(campaign.sample_s)}
-    kept = kept_by(campaign)
+    kept = kept_by(campaign) if plan.n_kept < plan.n_rows else None
     return (
         logs
         | (kept.plain() if kept else {})
@@ -84,7 +84,7 @@ def provenance_for(plan: Plan, fingerprint: Fingerprint) -> dict[str, object]:
 
 
 def kept_by(campaign: Campaign) -> Kept | None:
-    """Which rows a campaign keeps; None: all."""
+    """Which rows a campaign keeps of any number of runs; None: all."""
     return None if campaign.keep == "all" else Kept(runs=campaign.kept_runs, failures=campaign.keep == "failures")
 
 

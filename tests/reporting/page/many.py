@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import pyarrow as pa
 
+from fddbench.blocks.accounting import Cost
 from fddbench.results.schema import rows_schema
 from fddbench.results.table import named
 
@@ -16,9 +17,33 @@ PARAMETERS = {
 _OUTCOMES = ("right", "late", "missed", "wrong_site", "undecided", "false_alarm")
 
 
+def many_designs(detectors):
+    """Designs of these rows, flown as exported C: their texts as long as those of shipped ones are on average."""
+    counted = {"mul": 5210, "add": 4820, "div": 48, "sqrt": 16, "sin": 12, "exp": 4}
+    cost = Cost(
+        operations=counted, flops=12_345, multiply_adds=4_096, state_bytes=1_384, table_bytes=21_392, by_block={}
+    )
+    by = "gcc (Debian 12.2.0-14+deb12u1) 12.2.0, -std=c99 -O2 -ffp-contract=off -fno-tree-slp-vectorize"
+    measured = {
+        "code_bytes": 111_340,
+        "table_bytes": 21_392,
+        "state_bytes": 1_384,
+        "stack_bytes": 2_208,
+        "ticks": 16_652,
+    }
+    return [
+        {
+            "name": f"detector_of_some_length_{i}", "kind": "kind_of_it", "about": "a word " * 13, "source": "a word " * 20,
+            "sha256": f"{i:02}" * 32, "cost": cost, "every": 4, "opaque": "", "in_c": measured | {"by": by},
+        }
+        for i in range(detectors)
+    ]  # fmt: skip
+
+
 def many_rows(detectors, scenarios, runs, seed=3):
     """Rows of so many detectors, scenarios (the first healthy) and runs; every outcome happens in every faulty cell."""
     rng = np.random.default_rng(seed)
+    names = np.array([each["name"] for each in many_designs(detectors)])
     s, run, d = (each.ravel() for each in np.meshgrid(*map(np.arange, (scenarios, runs, detectors)), indexing="ij"))
     n, faulty = len(s), s > 0
     kind = rng.choice(6, n, p=[0.7, 0.08, 0.08, 0.08, 0.03, 0.03])
@@ -32,7 +57,7 @@ def many_rows(detectors, scenarios, runs, seed=3):
         "run": run,
         "point": np.zeros(n, dtype=np.int64),
         "level": np.zeros(n, dtype=np.int64),
-        "detector": np.array([f"detector_of_some_length_{i}" for i in range(detectors)])[d],
+        "detector": names[d],
         "status": np.full(n, "ok"),
         "flight_s": np.full(n, 60.0),
         "outcome": outcome,

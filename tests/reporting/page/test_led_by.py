@@ -2,10 +2,10 @@
 
 from types import SimpleNamespace
 
+from fddbench.reporting.beside import Told
 from fddbench.reporting.page.answer import Loudest
 from fddbench.reporting.page.columns import Columns
-from fddbench.reporting.page.led_by import of_points, of_print, of_quiet
-from fddbench.reporting.tables import Cell
+from fddbench.reporting.page.led_by import of_envelope, of_points, of_print, of_quiet
 
 NAMES = ("p_mass_error_percent", "p_delta_c_y_percent")
 
@@ -52,12 +52,27 @@ def test_what_looks_like_a_fault_is_said():
     assert of_quiet("Which is best?", loud) == []
 
 
-def test_print_is_counted_for_the_table_that_is_asked_for():
-    def line(scenario, detector, alarm, away):
-        return [Cell(scenario), Cell(detector), Cell("", alarm=alarm), *[Cell("1")] * 4, Cell(away), Cell("+9")]
+def test_where_over_the_envelope_is_said_in_the_cells_of_the_map(told):
+    rows = told(
+        ("jam_a", "jam_b"), ("one",), 120, lambda s, d, run: "missed" if s == "jam_a" and run % 4 == 0 else "right"
+    )
+    place = rows["run"].to_numpy(dtype=int) % 4
+    rows["p_v_cas_kt"], rows["p_altitude_ft"] = 260.0 + 20.0 * (place % 2), 15000.0 + 5000.0 * (place // 2)
+    columns, axes = Columns(rows), (("v_cas_kt", "altitude_ft"),)
+    said = text(of_envelope("Where over the envelope is it right?", columns, axes, (), 0))
+    assert said == (
+        "Over the envelope one fails most at v cas [kt] 260, altitude [ft] 15000: 30 of 60 faulty flights; least at "
+        "v cas [kt] 280, altitude [ft] 15000: 0 of 60. "
+    )
+    assert of_envelope("Which is best, and where over the envelope?", columns, axes, (), 0) == []
+    assert of_envelope("Where over the envelope is it right?", columns, axes, (), None) == []
+    assert of_envelope("Where over the envelope is it right?", columns, (), (), 0) == []
 
-    lines = [line("jam_a", "one", False, "0"), line("jam_b", "one", True, "−3"), line("jam_a", "two", True, "0")]
-    compared = [SimpleNamespace(table=SimpleNamespace(table=8), lines=[*lines, line("healthy", "one", False, "–")])]
+
+def test_print_is_counted_for_the_table_that_is_asked_for():
+    lines = [("one", True, 0), ("one", False, -3), ("two", False, 0), ("one", True, None)]
+    told = [Told(detector=detector, sound=sound, away=away) for detector, sound, away in lines]
+    compared = [SimpleNamespace(table=SimpleNamespace(table=8), told=told)]
     said = text(of_print("Do the gains give the published Table 8? Yes.", compared, "one"))
     assert said == (
         "Beside Table 8: one is right or quiet in all flights of 2 of 3 scenarios in print; its median time is the printed "

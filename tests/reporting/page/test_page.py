@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fddbench.metrics.bound import bounds_table
 from fddbench.reporting.page.writing import page_html, write_page
 
 LOST = dict.fromkeys(range(6), ("infeasible", "cannot hold <cruise>"))
@@ -143,3 +144,15 @@ def test_recordings_with_ended_flights(make_report):
     page = page_html(report)
     assert "bands of 6 of 6 flights" in page
     assert not re.search(r"\bnan\b", text_of(page).lower())
+
+
+def test_bounds_that_nobody_states_are_a_sentence_and_long_tables_say_what_paper_lacks(make_report):
+    report = make_report(scenarios=("jam_a",), flights=4, recordings=(), published=())
+    nobody = bounds_table([{"scenario": f"jam_{n}", "about": "this plant states no ideal model"} for n in range(41)])
+    page = page_html(replace(report, bounds=nobody))
+    assert page.count("this plant states no ideal model") == 1
+    assert "lines; on the screen all" not in page
+    own = {"model": "exact", "about": "exact in words", "p_fa": 1e-6, "window_s": 0.36, "flights": 25, "d": 5.5}
+    own |= {"d_least": 5.0, "p_d": 0.77, "d_health": 100.0, "p_detect": 1.0}
+    page = page_html(replace(report, bounds=bounds_table([own | {"scenario": f"jam_{n}"} for n in range(41)])))
+    assert "The first 40 of 41 lines; on the screen all." in page

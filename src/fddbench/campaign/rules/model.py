@@ -150,8 +150,8 @@ class CampaignFile(Strict):
     requirements : list of RequirementEntry
         What detectors must do; ``fddbench run --require`` ends with 1 where it is not shown.
     keep : {"all", "failures", "sample"}
-        Which rows are kept. All rows are counted; ``sample`` keeps those of the first runs, ``failures`` besides every row of a
-        flight that was not found in time, wrongly declared, or failed.
+        Which rows are kept. All rows are counted; ``sample`` keeps those of the first runs and rows that ended in an error,
+        ``failures`` besides those that are a false alarm, a wrong site, late or missed.
     kept_runs : int
         How many runs of every scenario are kept whole by ``failures`` and ``sample``: a campaign by themselves.
     """

@@ -16,7 +16,7 @@ from fddbench.reporting.formats import short
 from fddbench.reporting.labels import label
 from fddbench.reporting.page.answer import Said
 
-__all__ = ["asked", "of_consequences", "of_figures"]
+__all__ = ["asked", "asks_of_what_varies", "of_consequences", "of_figures"]
 
 _HOW = {"peak", "error", "rise"}
 _FIGURES = re.compile(r"\bFigs?\.? \d+(?:(?:, | and | to )\d+)*")
@@ -69,6 +69,15 @@ def of_figures(about: str, drawn: Sequence[str]) -> Said:
     verb = "are" if figures[0].startswith("Figs") else "is"
     more = f"{', '.join(drawn[:-1])} and {drawn[-1]}" if len(drawn) > 1 else drawn[0]
     return [(figures[0], True), (f" {verb} drawn below, under Signals, as flown here: {more}. ", False)]
+
+
+def asks_of_what_varies(about: str) -> bool:
+    """Whether a campaign asks what the values that it varies do, rather than which detector is best.
+
+    >>> asks_of_what_varies("How much wind is too much?"), asks_of_what_varies("Which detector is best?")
+    (True, False)
+    """
+    return re.match(r"What (do|does|is left)\b|How\b|At which\b", about) is not None
 
 
 def _named(column: str, text: str) -> bool:

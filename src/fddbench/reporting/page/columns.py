@@ -8,6 +8,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from fddbench.interfaces import Floats
+from fddbench.reporting.labels import of_a_fault
 
 __all__ = ["FAILED", "NEEDS", "Columns"]
 
@@ -120,7 +121,7 @@ class Columns:
     def varied(self, places: Index, prefixes: Sequence[str] = ("p_", "f")) -> list[str]:
         """Parameters and sizes of faults that differ among some rows, those of faults first."""
         names = [str(name) for name in self._rows.columns]
-        sizes = [name for name in names if name[:1] == "f" and name[1:2].isdigit() and "f" in prefixes]
+        sizes = [name for name in names if of_a_fault(name) and "f" in prefixes]
         own = [name for name in names if name.startswith("p_") and "p_" in prefixes]
         return [name for name in (*sizes, *own) if _differs(self.numbers(name)[places])]
 

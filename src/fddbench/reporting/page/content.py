@@ -1,6 +1,5 @@
 """What stands in each section of the page."""
 
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -18,7 +17,7 @@ from fddbench.reporting.guarantees import guarantee_lines
 from fddbench.reporting.labels import OUTCOMES
 from fddbench.reporting.loads import load_heads, load_lines, measured_by
 from fddbench.reporting.page.answer import Said, answer
-from fddbench.reporting.page.asked import asked
+from fddbench.reporting.page.asked import asked, asks_of_what_varies
 from fddbench.reporting.page.cells import Cell, cells
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.page.convergence import convergence_scene
@@ -26,7 +25,7 @@ from fddbench.reporting.page.counted import COUNTED_HEADS, counted_lines
 from fddbench.reporting.page.courses import courses, loudest
 from fddbench.reporting.page.data import ReportData
 from fddbench.reporting.page.envelope import envelope_maps, envelope_pairs, infeasible_map
-from fddbench.reporting.page.led_by import of_points, of_print, of_quiet
+from fddbench.reporting.page.led_by import of_envelope, of_points, of_print, of_quiet
 from fddbench.reporting.page.matrix import matrix_lines
 from fddbench.reporting.page.operating import operating_scenes
 from fddbench.reporting.page.payload import payload
@@ -120,10 +119,12 @@ def _answer(report: ReportData, ranks: Sequence[Rank], columns: Columns, compare
     )
     first += of_quiet(about, loud)
     first += of_points(about, columns, [f"p_{name}" for name in varied if f"p_{name}" in report.rows])
+    best = ranks[0].number if ranks and ranks[0].decided else None
+    first += of_envelope(about, columns, report.envelope_axes, report.swept, best)
     first += of_print(about, compared, ranks[0].detector if ranks else "")
     second = second_beside_best(columns, ranks)
-    what = report.operating is None and re.match(r"What (do|does|is left)\b|How\b|At which\b", about) is not None
-    return first + answer(ranks, second, courses=courses(columns, report.swept), loudest=loud, along_first=what)
+    along = report.operating is None and asks_of_what_varies(about)
+    return first + answer(ranks, second, courses=courses(columns, report.swept), loudest=loud, along_first=along)
 
 
 _MOST_MAPS = 6
@@ -184,10 +185,13 @@ def _more(report: ReportData, summary: pd.DataFrame, compared: Sequence[Beside])
 
 
 def _bounds(summary: pd.DataFrame, stated: pd.DataFrame | None) -> dict[str, Any]:
-    """What the ideal test finds, and the scores that are better than that; empty without a faulty scenario."""
+    """What the ideal test finds, and the scores that are better than that; where no scenario has a bound, why."""
+    found: dict[str, Any] = {"bounds": [], "bound_heads": HEADS, "unbounded": [], "breaches": []}
     if stated is None or stated.empty:
-        return {"bounds": [], "bound_heads": (), "breaches": []}
-    return {"bounds": bound_lines(stated), "bound_heads": HEADS, "breaches": breaches(summary, stated)}
+        return found
+    if stated["model"].isna().all():
+        return found | {"unbounded": list(stated["about"].unique())}
+    return found | {"bounds": bound_lines(stated), "breaches": breaches(summary, stated)}
 
 
 def _as_yaml(content: Mapping[str, Any]) -> str:

@@ -9,14 +9,14 @@ import numpy as np
 import numpy.typing as npt
 
 from fddbench.interfaces import Floats
-from fddbench.reporting.formats import count, percent
+from fddbench.reporting.formats import count, percent, short
 from fddbench.reporting.labels import label
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.svg.axes import ticks_text
 from fddbench.reporting.svg.heat import HeatCell, Side, heat_scene
 from fddbench.reporting.svg.scene import Scene
 
-__all__ = ["FEW", "envelope_maps", "envelope_pairs", "failed_map", "infeasible_map"]
+__all__ = ["FEW", "Corner", "envelope_maps", "envelope_pairs", "failed_map", "infeasible_map", "worst_and_best"]
 
 FEW = 20
 """Flights below which a cell is hatched."""
@@ -49,11 +49,12 @@ def envelope_maps(columns: Columns, pairs: Sequence[tuple[str, str]], chosen: Se
 def failed_map(columns: Columns, detector: int, x: str, y: str) -> Scene | None:
     """Failed share of the decided faulty flights of a detector; None: none is decided, or a parameter does not vary."""
     places = columns.of(detector)
-    faulty = places[columns.faulty[places] & columns.decided[places]]
     cuts = _both(columns, places, x, y)
-    if cuts is None or not len(faulty):
+    if cuts is None:
         return None
-    n, k = _counted(columns, faulty, cuts), _counted(columns, faulty[columns.failed[faulty]], cuts)
+    n, k = _decided(columns, places, cuts)
+    if not n.any():
+        return None
     lost = _counted(columns, places[columns.texts("status")[places] == "infeasible"], cuts)
     cells = []
     for i, j, ends in _grid(cuts):
@@ -68,6 +69,33 @@ def failed_map(columns: Columns, detector: int, x: str, y: str) -> Scene | None:
         cells, x=cuts[0].side, y=cuts[1].side, title=name,
         label=f"Failed share [%] of {name} over {label(x)} and {label(y)}",
     )  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class Corner:
+    """A cell of the map in words, ``v tas [m/s] 160 to 182, altitude [m] 2000 to 3700``, and its flights."""
+
+    where: str
+    failed: int
+    decided: int
+
+
+def worst_and_best(columns: Columns, detector: int, x: str, y: str) -> tuple[Corner, Corner] | None:
+    """Cells of `failed_map` with the largest and the smallest failed share; None: not two of them have `FEW` flights."""
+    places = columns.of(detector)
+    cuts = _both(columns, places, x, y)
+    if cuts is None:
+        return None
+    n, k = _decided(columns, places, cuts)
+    known = [(i, j) for i, j, _ in _grid(cuts) if n[i, j] >= FEW]
+    if len(known) < 2:
+        return None
+    ordered = sorted(known, key=lambda at: k[at] / n[at])
+    worst, best = (
+        Corner(where=f"{cuts[0].words(i)}, {cuts[1].words(j)}", failed=int(k[i, j]), decided=int(n[i, j]))
+        for i, j in (ordered[-1], ordered[0])
+    )
+    return worst, best
 
 
 def infeasible_map(columns: Columns, x: str, y: str) -> Scene | None:
@@ -103,6 +131,11 @@ class _Cut:
             return np.clip(np.searchsorted(self.values, values), 0, len(self.values) - 1)
         return np.clip(np.searchsorted(self.edges, values, side="right") - 1, 0, len(self.edges) - 2)
 
+    def words(self, i: int) -> str:
+        """Cell `i`: its name and its value, or its ends."""
+        ends = self.edges[i : i + 2] if self.values is None else self.values[i : i + 1]
+        return f"{label(self.name)} {' to '.join(map(short, ends.tolist()))}"
+
     @property
     def side(self) -> Side:
         """The axis of the picture."""
@@ -120,6 +153,12 @@ def _cut(columns: Columns, places: Index, name: str) -> _Cut | None:
     if len(own) <= _MOST_VALUES:
         return _Cut(name, np.arange(len(own) + 1, dtype=np.float64) - 0.5, own.astype(np.float64))
     return _Cut(name, np.linspace(own[0], own[-1], _PARTS + 1).astype(np.float64), None)
+
+
+def _decided(columns: Columns, places: Index, cuts: tuple[_Cut, _Cut]) -> tuple[Index, Index]:
+    """Decided faulty flights in each cell, and those of them that failed, (n_x, n_y)."""
+    faulty = places[columns.faulty[places] & columns.decided[places]]
+    return _counted(columns, faulty, cuts), _counted(columns, faulty[columns.failed[faulty]], cuts)
 
 
 def _counted(columns: Columns, places: Index, cuts: tuple[_Cut, _Cut]) -> Index:

@@ -112,10 +112,10 @@ def _cell(cell: Cell) -> MatrixCell:
 
 
 def _short_mark(mark: Mark) -> str:
-    """Boxes of the bar as short as they can be: 400 of them are on a large page."""
+    """Boxes of the bar as short as they can be, for a large page has thousands; their height is in the style sheet."""
     if isinstance(mark, Box):
         left = f' x="{number(mark.x)}"' if mark.x else ""
-        return f'<rect class="{mark.look}"{left} width="{number(mark.width)}" height="16"/>'
+        return f'<rect class="{mark.look}"{left} width="{number(mark.width)}"/>'
     assert isinstance(mark, Path)
     return f'<path class="ci" d="{path_data(mark.points)}"/>'
 

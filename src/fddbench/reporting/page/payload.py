@@ -8,7 +8,7 @@ import numpy as np
 from fddbench.interfaces import Floats
 from fddbench.metrics.association import Association
 from fddbench.metrics.paired import PairedShares
-from fddbench.reporting.formats import count, interval, percent, present, rate, seconds
+from fddbench.reporting.formats import DASH, count, interval, percent, present, rate, seconds
 from fddbench.reporting.labels import label
 from fddbench.reporting.page.cells import Cell
 from fddbench.reporting.page.columns import Columns
@@ -98,8 +98,8 @@ def _cell(cell: Cell) -> Data:
     return found
 
 
-def _quality(line: Mapping[Any, Any]) -> list[str]:
-    """Median, 95 % and largest time, over the limit, isolated, changes, bias, rms, healthy margin, bound; "–": none."""
+def _quality(line: Mapping[Any, Any]) -> list[str | int]:
+    """Median, 95 % and largest time, over the limit, isolated, changes, bias, rms, healthy margin, bound; 0: none."""
     times = [seconds(line[f"detection_time_{name}_s"]) for name in ("median", "p95", "max")]
     rest = [rate(line[name]) for name in ("normalized_detection_time_max",)]
     rest += [count(line["isolated"])]
@@ -107,7 +107,7 @@ def _quality(line: Mapping[Any, Any]) -> list[str]:
         rate(line[f"{name}"])
         for name in ("changes_max", "estimate_bias_median", "estimate_rms_median", "margin_healthy_max")
     ]
-    return [*times, *rest, percent(line.get("bound_percent"))]
+    return [0 if each == DASH else each for each in (*times, *rest, percent(line.get("bound_percent")))]
 
 
 def _association(each: Association) -> list[Any]:
@@ -143,16 +143,15 @@ def fitted_of(own: SizeCurve) -> Fitted | None:
     if own.curve is None:
         return None
     sizes = np.geomspace(max(float(own.low[0]), 1e-12), float(own.high[-1]), _POINTS)
-    ends = [own.curve.size_90, own.curve.size_90_95]
+    near = [None if end is None or end > _FAR * sizes[-1] else end for end in (own.curve.size_90, own.curve.size_90_95)]
     return Fitted(
-        middles=own.middle.tolist(), sizes=sizes.tolist(), shares=own.curve.share(sizes).tolist(),
-        **{name: end if end is not None and end <= _FAR * sizes[-1] else None for name, end in zip(_NINETY, ends, strict=True)},
+        middles=own.middle.tolist(), sizes=sizes.tolist(), shares=own.curve.share(sizes).tolist(), size_90=near[0],
+        size_90_95=near[1],
     )  # fmt: skip
 
 
 _POINTS, _FAR = 25, 1.5
 """Points of a drawn curve; how far beyond the largest size flown its end may be drawn."""
-_NINETY = ("size_90", "size_90_95")
 
 
 def _short(value: float) -> float | None:

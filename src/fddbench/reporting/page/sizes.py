@@ -35,6 +35,8 @@ class SizeCurve:
         Ends of the 95 % interval of the share, by run [-].
     curve : DetectionCurve or None
         As `fddbench pod` fits it; None: these flights give none, or it was not asked for.
+    could_be_fitted : bool
+        Whether these flights give one, asked for or not.
     said : str
         In words, as `fddbench pod` says it.
     """
@@ -48,12 +50,8 @@ class SizeCurve:
     share_low: Floats
     share_high: Floats
     curve: DetectionCurve | None
+    could_be_fitted: bool
     said: str
-
-    @property
-    def could_be_fitted(self) -> bool:
-        """Whether these flights give a curve that was not asked for."""
-        return self.said == _NOT_HERE
 
 
 def size_curve(columns: Columns, sure: "np.ndarray[Any, Any]", *, fit: bool = False) -> SizeCurve | None:
@@ -80,10 +78,12 @@ def size_curve(columns: Columns, sure: "np.ndarray[Any, Any]", *, fit: bool = Fa
     right, run = np.asarray(columns.texts("outcome")[own] == "right", dtype=bool), columns.whole("run", own)
     hits, trials = counts_by_run(parts.place, right, run, len(parts.low))
     low, high = pooled_intervals(hits, trials)
-    curve, said = curve_of(size, right, run, names[0]) if fit else (None, no_curve(size, right) or _NOT_HERE)
+    why_not = no_curve(size, right)
+    curve, said = curve_of(size, right, run, names[0]) if fit else (None, why_not or _NOT_HERE)
     return SizeCurve(
         name=names[0], low=parts.low, high=parts.high, middle=_middles(size, parts.place, len(parts.low)),
-        right=hits.sum(axis=0), flights=trials.sum(axis=0), share_low=low, share_high=high, curve=curve, said=said,
+        right=hits.sum(axis=0), flights=trials.sum(axis=0), share_low=low, share_high=high, curve=curve,
+        could_be_fitted=not why_not, said=said,
     )  # fmt: skip
 
 

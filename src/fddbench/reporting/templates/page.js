@@ -81,7 +81,7 @@ function sized(k, cls, foot) {
 }
 function quality(c) {
   const heads = ['median [s]', '95 % [s]', 'max [s]', 'max / limit', 'isolated', 'most changes', 'bias of estimate', 'rms', 'healthy margin', 'bound [%]'];
-  const shown = heads.map((h, i) => [h, c.x[i]]).filter(([, v]) => v !== '–');
+  const shown = heads.map((h, i) => [h, c.x[i]]).filter(([, v]) => v);
   return shown.length ? `<div class="scroll" tabindex="0" role="region" aria-label="Times and quality"><table data-copy="times and quality"><thead><tr>${shown.map(([h]) => `<th scope="col">${h}</th>`).join('')}</tr></thead><tbody><tr>${shown.map(([, v]) => `<td>${v}</td>`).join('')}</tr></tbody></table></div>` : '';
 }
 function declared(c) {

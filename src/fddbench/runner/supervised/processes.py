@@ -11,6 +11,7 @@ import time
 
 import numpy as np
 
+from fddbench.errors import signal_name
 from fddbench.interfaces import Floats
 from fddbench.runner.supervised.stages import Stage
 from fddbench.runner.supervised.wire import BROKEN, HEADER, Shape, received
@@ -135,7 +136,7 @@ class FlightProcess:
                 "crashed", "its process was ended from outside, or closed files that are not its own", flight
             )
         if os.WIFSIGNALED(status):
-            return DiedError("crashed", f"its process died of {signal.Signals(os.WTERMSIG(status)).name}", flight)
+            return DiedError("crashed", f"its process died of {signal_name(os.WTERMSIG(status))}", flight)
         code = os.waitstatus_to_exitcode(status)
         what = (
             "it closed files that are not its own" if code == BROKEN else f"it ended its process with exit code {code}"

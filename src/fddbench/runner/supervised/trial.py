@@ -17,7 +17,7 @@ from pathlib import Path
 
 from fddbench.campaign.load import read_campaign
 from fddbench.campaign.meaning import Campaign
-from fddbench.errors import FddbenchError
+from fddbench.errors import FddbenchError, signal_name
 from fddbench.plugin_files import none_run
 from fddbench.runner.assembling import assemble
 from fddbench.runner.supervised.manners import die_with, limit_data, print_little
@@ -60,7 +60,7 @@ def read_safely(path: Path, overrides: Sequence[str] = ()) -> Campaign:
 def _harm(path: Path, overrides: Sequence[str]) -> str:
     """What the plug-ins of a campaign do to the process that reads it, in words; "" for nothing."""
     ours, theirs = os.pipe()
-    asked = json.dumps({"path": str(path), "overrides": list(overrides), "search": sys.path})
+    asked = json.dumps({"path": str(path), "overrides": list(overrides), "search": [str(each) for each in sys.path]})
     line = [sys.executable, "-m", "fddbench.runner.supervised.trial", str(theirs), str(os.getpid()), asked]
     process = subprocess.Popen(
         line, pass_fds=[theirs], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, start_new_session=True,
@@ -76,8 +76,10 @@ def _harm(path: Path, overrides: Sequence[str]) -> str:
             os.killpg(process.pid, signal.SIGKILL)
         process.wait()
         os.set_blocking(ours, False)
-        with suppress(BlockingIOError), os.fdopen(ours, "rb") as file:
-            said = file.read() or b""
+        said = b""
+        with suppress(BlockingIOError):  # somebody whom it started still holds the other end, and it has said nothing
+            said = os.read(ours, len(_INTERRUPT))
+        os.close(ours)
     return _in_words(said, status)
 
 
@@ -89,7 +91,7 @@ def _in_words(said: bytes, status: int) -> str:
     if said == _INTERRUPT:
         return "raises KeyboardInterrupt"
     if status < 0:
-        return f"ends the process with {signal.Signals(-status).name}"
+        return f"ends the process with {signal_name(-status)}"
     return f"ends the process with exit code {status}, or closes files that are not its own"
 
 
@@ -99,9 +101,8 @@ def _main(fd: int, parent: int, path: str, overrides: Sequence[str], search: Seq
     die_with(parent)
     print_little()
     limit_data(MOST_GB)
-    sys.path[:] = (
-        search  # now that what is ours is imported: a file of anybody's may be called as a module of Python is
-    )
+    # now that what is ours is imported: a file of anybody's may be called as a module of Python is
+    sys.path[:] = search
     word = _DONE
     try:
         for detector in assemble(read_campaign(Path(path), overrides)).detectors.values():
