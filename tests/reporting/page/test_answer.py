@@ -57,7 +57,7 @@ def test_one_flight_has_no_interval(told, sentence):
     assert one.startswith("one: 100 % of 1 decided faulty flight right in time (one run: no interval).")
     two = sentence(told(("jam_a",), TWO, 1, lambda s, d, run: "right" if d == "one" else "missed"))
     assert two.startswith(
-        "Not decided between one and other, 100 and 0 % of faulty flights right in time (one run is no test)"
+        "Of these flights one is right in time in 100 %, other in 0 %; of other flights one run proves nothing."
     )
 
 
@@ -73,7 +73,7 @@ def test_what_is_swept_is_answered_first(told, sentence):
     rows = told(FAULTS, TWO, 40, lambda s, d, run: "missed" if d == "one" and run % 2 else "right")
     rows["p_gust_scale_ratio"] = (rows["run"].to_numpy(dtype=int) % 2).astype(float)
     text = sentence(rows, swept=("p_gust_scale_ratio",))
-    assert "From gust scale 0 to 1 right goes from 100 to 0 % with one, and from 100 to 100 % with other." in text
+    assert "From gust scale 0 to 1 right goes from 100 to 0 % with one, and stays at 100 % with other." in text
 
 
 def test_what_changes_for_nobody_is_not_told(told, sentence):

@@ -3,7 +3,8 @@
 1. Nothing flown, no fault flown, or nothing decided: it says so, and what is known of false alarms.
 2. All detectors right in all decided flights, or none ever right: it says so, for a rank would be chance.
 3. One detector: its share. Several: the best one, unless the second is as good on the same flights: an exact paired test by
-   run with p of 0.05 or more, then "not decided between"; equal counts are called equal.
+   run with p of 0.05 or more, then "not decided between"; equal counts are called equal. Of one run, which no test can tell
+   anything of, the shares of both.
 4. What the campaign varies: how the right share goes from the first to the last value, for who loses most and who loses least.
 5. Where the best one fails most; in how many flights a healthy site is declared; false alarms, and in which healthy scenario
    there are most of them. One flight has no interval, and it says so.
@@ -125,8 +126,12 @@ def _best(decided: Sequence[Rank], second: PairedShares | None) -> Said:
         as_often = f"{' and '.join(filter(None, [', '.join(also[:-1]), also[-1]]))} as often, " if also else ""
         return [("Not decided: ", False), (best.detector, True), (" and ", False), (other.detector, True),
                 (f" are right in the same flights, {as_often}", False), *_share(best)]  # fmt: skip
-    if second.p_value is None or second.p_value >= _SURE or second.runs < 2:
-        p = f"p = {second.p_value:.2g}" if second.p_value is not None and second.runs > 1 else "one run is no test"
+    if second.runs < 2:
+        here = f" in {percent(_percent(other))} %; of other flights one run proves nothing. "
+        return [("Of these flights ", False), (best.detector, True), (" is right in time in ", False),
+                (f"{percent(_percent(best))} %", True), (", ", False), (other.detector, True), (here, False)]  # fmt: skip
+    if second.p_value is None or second.p_value >= _SURE:
+        p = "no test" if second.p_value is None else f"p = {second.p_value:.2g}"
         share = f", {percent(_percent(best))} and {percent(_percent(other))} % of faulty flights right in time ({p}). "
         return [
             ("Not decided between ", False),
@@ -162,7 +167,9 @@ def _along(course: Course) -> Said:
         return []
     most, least = losses[0], losses[-1]
     text: Said = [(f"From {course.name} {course.first} to {course.last} right goes from ", False), *_from_to(most)]
-    if least[0] != most[0]:
+    if least[1] == least[2]:
+        text += [(", and stays at ", False), (f"{percent(least[1])} %", True), (f" with {least[0]}", False)]
+    elif least[0] != most[0]:
         text += [(", and from ", False), *_from_to(least)]
     return [*text, (". ", False)]
 

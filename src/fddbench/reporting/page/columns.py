@@ -118,6 +118,12 @@ class Columns:
         """Places of the rows of a detector."""
         return np.flatnonzero(self.detector == detector)
 
+    def drawn(self, name: str, places: Index) -> bool:
+        """Whether each value of a column of few values is that of one run of several: drawn, not asked for."""
+        values, run = self.numbers(name)[places], self.numbers("run")[places]
+        own = [run[values == value] for value in np.unique(values[~np.isnan(values)])]
+        return float(run.max(initial=0.0)) > float(run.min(initial=0.0)) and all(np.ptp(each) == 0.0 for each in own)
+
     def varied(self, places: Index, prefixes: Sequence[str] = ("p_", "f")) -> list[str]:
         """Parameters and sizes of faults that differ among some rows, those of faults first."""
         names = [str(name) for name in self._rows.columns]

@@ -22,7 +22,7 @@ from fddbench.reporting.page.cells import Cell, cells
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.page.convergence import convergence_scene
 from fddbench.reporting.page.counted import COUNTED_HEADS, counted_lines
-from fddbench.reporting.page.courses import courses, loudest
+from fddbench.reporting.page.courses import courses, loudest, worst_value
 from fddbench.reporting.page.data import ReportData
 from fddbench.reporting.page.envelope import envelope_maps, envelope_pairs, infeasible_map
 from fddbench.reporting.page.led_by import of_envelope, of_points, of_print, of_quiet
@@ -122,6 +122,7 @@ def _answer(report: ReportData, ranks: Sequence[Rank], columns: Columns, compare
     best = ranks[0].number if ranks and ranks[0].decided else None
     first += of_envelope(about, columns, report.envelope_axes, report.swept, best)
     first += of_print(about, compared, ranks[0].detector if ranks else "")
+    first += worst_value(about, columns, report.swept, ranks)
     second = second_beside_best(columns, ranks)
     along = report.operating is None and asks_of_what_varies(about)
     return first + answer(ranks, second, courses=courses(columns, report.swept), loudest=loud, along_first=along)

@@ -12,7 +12,7 @@ from fddbench.interfaces import Floats
 from fddbench.reporting.formats import count, percent, short
 from fddbench.reporting.labels import label
 from fddbench.reporting.page.columns import Columns
-from fddbench.reporting.svg.axes import ticks_text
+from fddbench.reporting.svg.axes import ticks_texts
 from fddbench.reporting.svg.heat import HeatCell, Side, heat_scene
 from fddbench.reporting.svg.scene import Scene
 
@@ -119,7 +119,7 @@ def infeasible_map(columns: Columns, x: str, y: str) -> Scene | None:
 
 @dataclass(frozen=True, eq=False)
 class _Cut:
-    """An axis cut into cells: few values a cell each, side by side however far apart; of many parts of equal width."""
+    """An axis cut into cells: few values that were asked for a cell each, side by side; of others parts of equal width."""
 
     name: str
     edges: Floats
@@ -141,7 +141,7 @@ class _Cut:
         """The axis of the picture."""
         marked = self.edges if self.values is None else self.values
         at = self.edges if self.values is None else np.arange(len(self.values), dtype=np.float64)
-        ticks = [(a, ticks_text(v)) for a, v in zip(at.tolist(), marked.tolist(), strict=True)]
+        ticks = list(zip(at.tolist(), ticks_texts(marked.tolist()), strict=True))
         return Side(name=label(self.name), low=float(self.edges[0]), high=float(self.edges[-1]), ticks=ticks)
 
 
@@ -150,7 +150,7 @@ def _cut(columns: Columns, places: Index, name: str) -> _Cut | None:
     own = np.unique(values[~np.isnan(values)])
     if len(own) < 2:
         return None
-    if len(own) <= _MOST_VALUES:
+    if len(own) <= _MOST_VALUES and not columns.drawn(name, places):
         return _Cut(name, np.arange(len(own) + 1, dtype=np.float64) - 0.5, own.astype(np.float64))
     return _Cut(name, np.linspace(own[0], own[-1], _PARTS + 1).astype(np.float64), None)
 

@@ -13,7 +13,7 @@ from fddbench.reporting.labels import label
 from fddbench.reporting.page.cells import Cell
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.page.sizes import SizeCurve
-from fddbench.reporting.svg.axes import ticks_text
+from fddbench.reporting.svg.axes import ticks_texts
 from fddbench.reporting.svg.charts import Parted
 from fddbench.reporting.svg.size import Fitted
 
@@ -53,7 +53,7 @@ def payload(columns: Columns, cells: Mapping[tuple[int, int], Cell], folder: str
 
 def part_names(low: Floats, high: Floats) -> list[str]:
     """What parts are called: their value, of a range its middle."""
-    return [ticks_text(0.5 * (a + b)) for a, b in zip(low.tolist(), high.tolist(), strict=True)]
+    return ticks_texts([0.5 * (a + b) for a, b in zip(low.tolist(), high.tolist(), strict=True)])
 
 
 def parted_of(own: Association | SizeCurve) -> Parted:
