@@ -18,6 +18,7 @@ from pathlib import Path
 __all__ = [
     "CampaignError",
     "DesignError",
+    "EndedError",
     "FddbenchError",
     "Mistake",
     "OtherProgramWarning",
@@ -187,6 +188,10 @@ class DesignError(FddbenchError):
     def __str__(self) -> str:
         """The message as written."""
         return self.message
+
+
+class EndedError(FddbenchError):
+    """A detector's process is gone, or was ended: the text opens with the status of its row, as ``crashed: ``."""
 
 
 @dataclass(eq=False)
