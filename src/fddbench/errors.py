@@ -190,8 +190,16 @@ class DesignError(FddbenchError):
         return self.message
 
 
+@dataclass(eq=False)
 class EndedError(FddbenchError):
-    """A detector's process is gone, or was ended: the text opens with the status of its row, as ``crashed: ``."""
+    """A detector's process is gone, was ended, or is none: the status of its row, and what is known."""
+
+    status: str
+    message: str
+
+    def __str__(self) -> str:
+        """The message; before it the status, as rows have it, where that is more than an error."""
+        return self.message if self.status == "error" else f"{self.status}: {self.message}"
 
 
 @dataclass(eq=False)

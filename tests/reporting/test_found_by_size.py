@@ -13,7 +13,8 @@ CURVE = {"flights": 100, "found": 60, "runs": 100, "floor": 0.0, "ceiling": 1.0,
     [
         (0.71, 0.83, "90 % found at 0.71 deg/s, at most 0.83 deg/s at 95 % confidence"),
         (2.5, None, "90 % found at 2.5 deg/s, beyond the largest flown; these flights give it no upper end at 95 % confidence"),
-        (8.53e4, None, "90 % would be found only above 2 times the largest flown, 2 deg/s"),
+        (3.8, 17.0, "90 % found at 3.8 deg/s, beyond the largest flown; these flights give it no upper end at 95 % confidence"),
+        (8.53e4, None, "these flights do not show where 90 % are found: not up to 2 times the largest flown, 2 deg/s"),
     ],
 )  # fmt: skip
 def test_what_is_said_of_a_curve(size_90, size_90_95, said):

@@ -36,6 +36,8 @@ def reason_at(error: BaseException, detector: Any) -> str:
 
 def same_line(error: BaseException, detector: Any) -> tuple[str, str]:
     """What two errors share that are the same error at the same line, whatever numbers their texts show."""
+    if isinstance(error, EndedError):
+        return error.status, error.message
     lines = _own_lines(error, detector)
     return type(error).__name__, f"{lines[-1][0]}:{lines[-1][1]}" if lines else reason_of(error)
 

@@ -2,17 +2,21 @@
 
 import os
 import select
+import signal
 import struct
 import subprocess
+import time
+from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from fddbench.errors import EndedError, signal_name
-from fddbench.exported.child_main import MAGIC, SHORT_OF_MEMORY
+from fddbench.exported.child_main import ANSWER, MAGIC, SHORT_OF_MEMORY
 
-__all__ = ["Child", "CodeError", "CrashedError"]
+__all__ = ["Child", "CodeError", "GoneError"]
 
 Bytes = npt.NDArray[np.uint8]
 PATIENCE_S = 20.0
@@ -25,8 +29,8 @@ class CodeError(EndedError):
     """Code crashed, hung or spoke nonsense."""
 
 
-class CrashedError(CodeError):
-    """It ended, by itself or by a signal: perhaps not of itself."""
+class GoneError(CodeError):
+    """Its process ended: perhaps not of itself, or for what it had kept from earlier steps."""
 
 
 class Child:
@@ -47,10 +51,11 @@ class Child:
     def __init__(
         self, program: Path, wrapper: tuple[str, ...] = (), *, patience_s: float = PATIENCE_S, memory_mb: float = 0.0
     ) -> None:
-        self.patience_s, self._memory_mb, self._swapped = patience_s, memory_mb, False
+        self.patience_s, self._memory_mb, self._swapped, self._answers = patience_s, memory_mb, False, 0
+        self._until = time.monotonic() + patience_s
         try:
             self._process = subprocess.Popen(
-                [*wrapper, str(program), f"{memory_mb:.0f}"],
+                [*wrapper, str(program), str(os.getpid()), f"{memory_mb:.0f}"],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.DEVNULL,
@@ -58,12 +63,16 @@ class Child:
                 start_new_session=True,
             )
         except OSError as error:
-            raise CodeError(f"{program} cannot be run: {error}") from error
+            raise CodeError("error", f"{program} cannot be run: {error}") from error
+        assert self._process.stdin is not None
+        os.set_blocking(self._process.stdin.fileno(), False)  # it may stop reading
         head = self._read(16)
         self._swapped = struct.unpack("=I", head[:4])[0] != MAGIC
         magic, self.state_size, self.inputs_size, self.outputs_size = struct.unpack(self._order + "4I", head)
         if magic != MAGIC:
-            raise CodeError("the code wrote to its standard output while it was loaded, which belongs to the flight")
+            raise CodeError(
+                "error", "the code wrote to its standard output while it was loaded, which belongs to the flight"
+            )
         self.start = np.frombuffer(self._read(self.state_size), dtype=np.uint8)
 
     @property
@@ -84,7 +93,11 @@ class Child:
             It crashed or does not answer.
         """
         n = len(state)
+        self._until, self._answers = time.monotonic() + self.patience_s, self._answers + 1
         self._write(struct.pack(self._order + "I", n) + np.concatenate([state, inputs], axis=1).tobytes())
+        if struct.unpack(self._order + "2I", self._read(8)) != (ANSWER, self._answers):
+            self._kill()
+            raise CodeError("crashed", "it wrote to files that are not its own")
         size = self.state_size + self.outputs_size
         rows = np.frombuffer(self._read(n * size), dtype=np.uint8).reshape(n, size)
         return rows[:, : self.state_size], rows[:, self.state_size :]
@@ -97,12 +110,8 @@ class Child:
                     stream.close()
                 except OSError:
                     continue
-        if self._process.poll() is None:
-            try:
-                self._process.wait(2.0)
-            except subprocess.TimeoutExpired:
-                self._process.kill()
-                self._process.wait()
+        if self._process.returncode is None:
+            self._wait(2.0)
 
     def __del__(self) -> None:
         """A program does not outlive its flights."""
@@ -114,7 +123,8 @@ class Child:
         view = memoryview(data)
         try:
             while view:
-                view = view[self._process.stdin.write(view) :]
+                self._wait_for([], [self._process.stdin])
+                view = view[self._process.stdin.write(view) or 0 :]
         except OSError as error:
             raise self._ended() from error
 
@@ -122,10 +132,7 @@ class Child:
         assert self._process.stdout is not None
         parts, left = [], size
         while left:
-            ready, _, _ = select.select([self._process.stdout], [], [], self.patience_s)
-            if not ready:
-                self._process.kill()
-                raise CodeError(f"timeout: no answer in {self.patience_s:g} s")
+            self._wait_for([self._process.stdout], [])
             part = self._process.stdout.read(left)
             if not part:
                 raise self._ended()
@@ -133,15 +140,36 @@ class Child:
             left -= len(part)
         return b"".join(parts)
 
-    def _ended(self) -> CodeError:
-        """Why it is gone; it may have closed its files and gone on."""
+    def _wait_for(self, reading: list[Any], writing: list[Any]) -> None:
+        """Until a pipe is ready; the time of a step is that of all its parts."""
+        if not any(select.select(reading, writing, [], max(self._until - time.monotonic(), 0.0))):
+            self._kill()
+            raise CodeError("timeout", f"no answer in {self.patience_s:g} s")
+
+    def _kill(self) -> None:
+        """End it, and what it has begun: it leads a group of its own."""
+        with suppress(OSError):
+            os.killpg(self._process.pid, signal.SIGKILL)
+
+    def _wait(self, patience_s: float) -> bool:
+        """Whether it ends by itself; what it has begun ends with it."""
         try:
-            code = self._process.wait(_LAST_S)
+            self._process.wait(patience_s)
+            ended = True
         except subprocess.TimeoutExpired:
-            self._process.kill()
-            code = self._process.wait()
+            ended = False
+        self._kill()
+        self._process.wait()
+        return ended
+
+    def _ended(self) -> CodeError:
+        """Why it is gone."""
+        if not self._wait(_LAST_S):
+            return CodeError("crashed", "it closed files that are not its own")
+        code = self._process.returncode
         if code == SHORT_OF_MEMORY:
-            return CodeError(f"memory: it needs more than {self._memory_mb:g} MB")
-        if code < 0:
-            return CrashedError(f"crashed: its process died of {signal_name(-code)}")
-        return CrashedError(f"crashed: it ended its process with exit code {code}")
+            return GoneError("memory", f"it needs more than {self._memory_mb:g} MB")
+        what = (
+            f"its process died of {signal_name(-code)}" if code < 0 else f"it ended its process with exit code {code}"
+        )
+        return GoneError("crashed", what)

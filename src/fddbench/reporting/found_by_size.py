@@ -65,8 +65,8 @@ def in_words(curve: DetectionCurve, largest: float, unit: str = "") -> str:
         return f"90 % are never found: the curve ends at {100.0 * curve.ceiling:.0f} %"
     of = f" {unit}" if unit not in {"", "-"} else ""
     if curve.size_90 > _FAR * largest:
-        return f"90 % would be found only above {_FAR:g} times the largest flown, {largest:.3g}{of}"
+        return f"these flights do not show where 90 % are found: not up to {_FAR:g} times the largest flown, {largest:.3g}{of}"
     beyond = ", beyond the largest flown" if curve.size_90 > largest else ""
-    if curve.size_90_95 is None:
+    if curve.size_90_95 is None or curve.size_90_95 > _FAR * largest:
         return f"90 % found at {curve.size_90:.3g}{of}{beyond}; these flights give it no upper end at 95 % confidence"
     return f"90 % found at {curve.size_90:.3g}{of}{beyond}, at most {curve.size_90_95:.3g}{of} at 95 % confidence"

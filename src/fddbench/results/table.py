@@ -111,7 +111,7 @@ def read_rows(
         raise without_rows(folder)
     if columns is not None:
         require_columns(columns, known)
-    chosen = filter_of([*listed(filters or []), *(_fair(folder) if fair else [])], known)
+    chosen = filter_of([*listed([] if filters is None else filters), *(_fair(folder) if fair else [])], known)
     return _sorted(folder, "rows", columns, chosen)
 
 

@@ -15,7 +15,7 @@ from fddbench.designs.adapted import Adapted
 from fddbench.designs.design import Design
 from fddbench.designs.design_file import Limits
 from fddbench.errors import CampaignError, DesignError, FddbenchError, Mistake
-from fddbench.exported.child import Child, CodeError, CrashedError
+from fddbench.exported.child import Child, CodeError, GoneError
 from fddbench.exported.child_main import main_text
 from fddbench.exported.code import sources
 from fddbench.exported.compiling import Compiler, built, compiler
@@ -89,7 +89,7 @@ class InC:
         Raises
         ------
         CodeError
-            The code crashed three times at this step, does not answer or wants too much memory; it is begun anew for the next.
+            The code ended three times at this step, each time in a new process, or does not answer.
         """
         if isinstance(x.words, Symbolic):
             raise DesignError(f"it is C, compiled by {self.by}")
@@ -104,13 +104,16 @@ class InC:
         )
 
     def _tried(self, words: Floats, measured: Mapping[str, Floats]) -> tuple[Floats, dict[str, Floats]]:
-        """State and outputs; who ended the code may have been somebody else, for it gets all its state anew."""
+        """State and outputs; a new process goes on where one has ended, for all its state comes with the step.
+
+        It may have been ended from outside, or have leaked until nothing was left.
+        """
         for left in reversed(range(_TRIES)):
             try:
                 return self._flown().step(words, measured)
             except CodeError as error:
                 self._running = None
-                if not (left and isinstance(error, CrashedError)):
+                if not (left and isinstance(error, GoneError)):
                     raise
         raise AssertionError  # the last try returns or raises
 

@@ -39,4 +39,3 @@ def _one_detector(design: str, campaign: Path | None) -> Assembly:
             first = first or error
     assert first is not None
     raise first
-

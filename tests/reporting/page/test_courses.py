@@ -1,6 +1,7 @@
 """How shares go over what is swept: never over what is drawn, never over sizes that belong to different scenarios."""
 
 import numpy as np
+import pytest
 
 from fddbench.metrics.alarms import summarize_alarms
 from fddbench.reporting.page.columns import Columns
@@ -38,18 +39,38 @@ def test_sizes_of_different_scenarios_have_no_course(told):
     assert courses(Columns(partly), [GUST]) == []
 
 
-def test_which_value_is_worst_is_said_where_it_is_asked(told):
-    def said(about, outcome):
-        rows = flown(told, outcome, lambda s, run: (9, 15, 25)[run % 3])
-        columns = Columns(rows)
-        return "".join(
-            piece for piece, _ in worst_value(about, columns, [GUST], ranking(columns, summarize_alarms(rows)))
-        )
+@pytest.fixture
+def worst(told):
+    """What is said of 20 runs that fly every value, 9, 15 and 25 m."""
 
-    asked = "Which discrete gust is worst for the published scheme?"
-    both_lost = said(asked, lambda s, d, run: "missed" if run % 3 == 1 else "right")
-    assert both_lost == "gust gradient [m] 15 is worst: one is right in 0 % there, in up to 100 % elsewhere. "
-    assert said(asked, lambda *_: "right") == (
+    def say(outcome, about="Which discrete gust is worst for the published scheme?"):
+        rows = told(("jam_a", "jam_b"), ("one", "other"), 60, lambda s, d, run: outcome(s, run % 3, run // 3))
+        number = rows["run"].to_numpy(dtype=int)
+        rows[GUST], rows["point"], rows["run"] = np.array([9.0, 15.0, 25.0])[number % 3], number % 3, number // 3
+        ranks = ranking(Columns(rows), summarize_alarms(rows))
+        return "".join(piece for piece, _ in worst_value(about, Columns(rows), [GUST], ranks))
+
+    return say
+
+
+def test_which_value_is_worst_is_said_where_it_is_asked(worst):
+    lost = worst(lambda s, point, run: "missed" if point == 1 else "right")
+    assert lost == "gust gradient [m] 15 is worst: one is right in 0 % there, in up to 100 % elsewhere. "
+    assert worst(lambda *_: "right") == (
         "None is worse than another, gust gradient [m] of 9 to 25: one is right in 100 % at each. "
     )
-    assert said("Which detector is best?", lost_above_20) == ""
+    assert worst(lambda *_: "right", about="Which detector is best?") == ""
+
+
+def test_no_value_is_worst_that_chance_may_explain_or_that_is_not_alone(worst):
+    few = worst(lambda s, point, run: "missed" if (s, point, run) == ("jam_a", 1, 0) else "right")
+    assert few == "Not decided which is worst: one is right in 97.5 to 100 % over gust gradient [m] 9 to 25. "
+    tie = worst(lambda s, point, run: "missed" if point else "right")
+    assert tie.startswith("Not decided which is worst: one is right in 0 to 100 %")
+
+
+def test_a_value_that_some_scenarios_do_not_fly_is_not_compared(told):
+    rows = flown(told, lambda s, d, run: "missed" if s == "jam_b" else "right", lambda s, run: (9, 15, 25)[run % 3])
+    rows = rows[~((rows["scenario"] == "jam_a") & (rows[GUST] == 15.0))].reset_index(drop=True)
+    ranks = ranking(Columns(rows), summarize_alarms(rows))
+    assert worst_value("Which discrete gust is worst?", Columns(rows), [GUST], ranks) == []

@@ -3,7 +3,7 @@
 from types import SimpleNamespace
 
 from fddbench.reporting.beside import Told
-from fddbench.reporting.page.answer import Loudest
+from fddbench.reporting.page.alarms_said import Loudest
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.page.led_by import of_envelope, of_points, of_print, of_quiet
 
@@ -62,7 +62,7 @@ def test_where_over_the_envelope_is_said_in_the_cells_of_the_map(told):
     said = text(of_envelope("Where over the envelope is it right?", columns, axes, (), 0))
     assert said == (
         "Over the envelope one fails most at v cas [kt] 260, altitude [ft] 15000: 30 of 60 faulty flights; least at "
-        "v cas [kt] 280, altitude [ft] 15000: 0 of 60. "
+        "v cas [kt] 280, altitude [ft] 15000: 0 of 60, as often in 2 more cells. "
     )
     assert of_envelope("Which is best, and where over the envelope?", columns, axes, (), 0) == []
     assert of_envelope("Where over the envelope is it right?", columns, axes, (), None) == []
@@ -75,7 +75,7 @@ def test_print_is_counted_for_the_table_that_is_asked_for():
     compared = [SimpleNamespace(table=SimpleNamespace(table=8), told=told)]
     said = text(of_print("Do the gains give the published Table 8? Yes.", compared, "one"))
     assert said == (
-        "Beside Table 8: one is right or quiet in all flights of 2 of 3 scenarios in print; its median time is the printed "
-        "one to a sample in 1 of 2. "
+        "Beside Table 8: one is right or quiet in all decided flights of 2 of 3 scenarios in print; its median time is the "
+        "printed one to a sample in 1 of 2. "
     )
     assert of_print("Do the gains hold? Table 8 is beside.", compared, "one") == []

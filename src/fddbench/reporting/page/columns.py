@@ -8,6 +8,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from fddbench.interfaces import Floats
+from fddbench.reporting.drawn import is_drawn
 from fddbench.reporting.labels import of_a_fault
 
 __all__ = ["FAILED", "NEEDS", "Columns"]
@@ -101,6 +102,11 @@ class Columns:
         return found
 
     @property
+    def lost(self) -> npt.NDArray[np.bool_]:
+        """Rows that should have been scored."""
+        return np.asarray(~self.ok & (self.texts("status") != "infeasible"), dtype=bool)
+
+    @property
     def failed(self) -> npt.NDArray[np.bool_]:
         """Rows in which something went wrong."""
         if "failed" not in self._known:
@@ -119,10 +125,8 @@ class Columns:
         return np.flatnonzero(self.detector == detector)
 
     def drawn(self, name: str, places: Index) -> bool:
-        """Whether each value of a column of few values is that of one run of several: drawn, not asked for."""
-        values, run = self.numbers(name)[places], self.numbers("run")[places]
-        own = [run[values == value] for value in np.unique(values[~np.isnan(values)])]
-        return float(run.max(initial=0.0)) > float(run.min(initial=0.0)) and all(np.ptp(each) == 0.0 for each in own)
+        """Whether the values of a column of few values were drawn, not asked for."""
+        return is_drawn(self.numbers(name)[places], self.numbers("run")[places])
 
     def varied(self, places: Index, prefixes: Sequence[str] = ("p_", "f")) -> list[str]:
         """Parameters and sizes of faults that differ among some rows, those of faults first."""

@@ -16,7 +16,8 @@ from fddbench.reporting.consequences import consequence_heads, consequence_lines
 from fddbench.reporting.guarantees import guarantee_lines
 from fddbench.reporting.labels import OUTCOMES
 from fddbench.reporting.loads import load_heads, load_lines, measured_by
-from fddbench.reporting.page.answer import Said, answer
+from fddbench.reporting.page.alarms_said import Said
+from fddbench.reporting.page.answer import answer
 from fddbench.reporting.page.asked import asked, asks_of_what_varies
 from fddbench.reporting.page.cells import Cell, cells
 from fddbench.reporting.page.columns import Columns
@@ -117,7 +118,7 @@ def _answer(report: ReportData, ranks: Sequence[Rank], columns: Columns, compare
     first = asked(
         about, report.rows, report.consequences, drawn, commander=str(report.campaign.get("reconfigure") or "")
     )
-    first += of_quiet(about, loud)
+    first += of_quiet(about, loud, healthy=bool((columns.ok & ~columns.faulty).any()))
     first += of_points(about, columns, [f"p_{name}" for name in varied if f"p_{name}" in report.rows])
     best = ranks[0].number if ranks and ranks[0].decided else None
     first += of_envelope(about, columns, report.envelope_axes, report.swept, best)

@@ -5,16 +5,20 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
-from fddbench.reporting.formats import percent, short
+from fddbench.interfaces import Floats
+from fddbench.metrics.paired import PairedShares, holm, paired_shares
+from fddbench.reporting.formats import percent, shorts
 from fddbench.reporting.labels import label
-from fddbench.reporting.page.answer import Course, Loudest, Said
+from fddbench.reporting.page.alarms_said import Loudest, Said
+from fddbench.reporting.page.answer import Course
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.page.ranking import Rank
 
 __all__ = ["courses", "loudest", "worst_value"]
 
-_MOST_VALUES = 12
+_MOST_VALUES, _SURE = 12, 0.05
 
 
 def courses(columns: Columns, swept: Sequence[str]) -> list[Course]:
@@ -33,21 +37,23 @@ def courses(columns: Columns, swept: Sequence[str]) -> list[Course]:
             ends = [_right(columns, faulty & (columns.detector == d) & (values == value)) for value in known[[0, -1]]]
             if None not in ends:
                 shares.append((detector, float(ends[0] or 0.0), float(ends[1] or 0.0)))
-        found.append(Course(name=_called(name), first=short(known[0]), last=short(known[-1]), shares=shares))
+        first, last = shorts([float(known[0]), float(known[-1])])
+        found.append(Course(name=_called(name), first=first, last=last, shares=shares))
     return found[:2]
 
 
-def _values(columns: Columns, name: str) -> "np.ndarray[Any, Any]":
-    """Values of a column that every faulty scenario flies at its first and its last one; none where that is not so."""
+def _values(columns: Columns, name: str, *, everywhere: bool = False) -> "np.ndarray[Any, Any]":
+    """Values of a column whose ends every faulty scenario flies, or all of them `everywhere`; none where that is not so."""
     faulty = np.flatnonzero(columns.faulty & columns.decided)
     values, none = columns.numbers(name)[faulty], np.zeros(0)
     known = np.unique(values)
     if not 2 <= len(known) <= _MOST_VALUES or np.isnan(known).any() or columns.drawn(name, faulty):
         return none
     scenario = columns.scenario[faulty]
-    everywhere = set(np.unique(scenario).tolist())
-    ends = (set(np.unique(scenario[values == value]).tolist()) for value in known[[0, -1]])
-    return known if all(there == everywhere for there in ends) else none
+    wanted = set(np.unique(scenario).tolist())
+    asked = known if everywhere else known[[0, -1]]
+    there = (set(np.unique(scenario[values == value]).tolist()) for value in asked)
+    return known if all(each == wanted for each in there) else none
 
 
 def _called(name: str) -> str:
@@ -55,21 +61,48 @@ def _called(name: str) -> str:
 
 
 def worst_value(about: str, columns: Columns, swept: Sequence[str], ranks: Sequence[Rank]) -> Said:
-    """At which value of what is swept the best detector is right least, where a campaign asks which is worst."""
+    """At which value of what is swept the best detector is right least, where a campaign asks which is worst.
+
+    One is called the worst where a paired test by run says so beside every other one, p adjusted by Holm.
+    """
     best = ranks[0] if ranks and ranks[0].decided else None
-    names = [name for name in swept if len(_values(columns, name))]
+    names = [name for name in swept if len(_values(columns, name, everywhere=True))]
     if re.match(r"Which\b[^?]*\bis worst\b", about) is None or best is None or not names:
         return []
-    values, known = columns.numbers(names[0]), _values(columns, names[0])
+    name, known = names[0], _values(columns, names[0], everywhere=True)
     own = columns.faulty & columns.decided & (columns.detector == best.number)
-    shares = [_right(columns, own & (values == value)) for value in known]
-    there = {float(value): share for value, share in zip(known, shares, strict=True) if share is not None}
-    worst, least, most = min(there, key=lambda value: there[value]), min(there.values()), max(there.values())
+    shares = [_right(columns, own & (columns.numbers(name) == value)) or 0.0 for value in known]
+    least, most, worst = min(shares), max(shares), float(known[int(np.argmin(shares))])
+    shown, here = shorts(known.tolist()), " in these flights" if best.right.runs < 2 else ""
     if least == most:
-        ends = f" of {short(known[0])} to {short(known[-1])}: {best.detector} is right in {percent(least)} % at each. "
-        return [("None is worse than another", True), (f", {_called(names[0])}{ends}", False)]
+        ends = f" of {shown[0]} to {shown[-1]}: {best.detector} is right in {percent(least)} % at each. "
+        return [("None is worse than another", True), (f"{here}, {_called(name)}{ends}", False)]
     said = f": {best.detector} is right in {percent(least)} % there, in up to {percent(most)} % elsewhere. "
-    return [(f"{_called(names[0])} {short(worst)} is worst", True), (said, False)]
+    if shares.count(least) == 1 and _worse_than_all(columns, own, columns.numbers(name), known.tolist(), worst):
+        return [(f"{_called(name)} {shown[int(np.argmin(shares))]} is worst", True), (said, False)]
+    ends = f" is right in {percent(least)} to {percent(most)} % over {_called(name)} {shown[0]} to {shown[-1]}. "
+    return [("Not decided which is worst", True), (f": {best.detector}{ends}", False)]
+
+
+def _worse_than_all(
+    columns: Columns, own: "np.ndarray[Any, Any]", values: Floats, known: Sequence[float], worst: float
+) -> bool:
+    """Whether flights at one value go worse than the same flights at each other value."""
+    pairs = [_beside(columns, own & (values == worst), own & (values == value)) for value in known if value != worst]
+    p = holm([np.nan if each.p_value is None or each.runs < 2 else each.p_value for each in pairs])
+    return bool(np.all(p < _SURE)) and all((each.difference or 0.0) > 0.0 for each in pairs)
+
+
+def _beside(columns: Columns, a: "np.ndarray[Any, Any]", b: "np.ndarray[Any, Any]") -> PairedShares:
+    """Right shares of flights of the same scenario and run at two values, in the order of what else is swept."""
+    keys = ["scenario", "run", "number"]
+    sides = []
+    for chosen in (np.flatnonzero(a), np.flatnonzero(b)):
+        right, run = columns.texts("outcome")[chosen] == "right", columns.whole("run", chosen)
+        side = pd.DataFrame({"scenario": columns.scenario[chosen], "run": run, "right": right})
+        sides.append(side.assign(number=side.groupby(keys[:2]).cumcount()))
+    both = sides[0].merge(sides[1], on=keys, suffixes=("_a", "_b"))
+    return paired_shares(both["right_a"].to_numpy(), both["right_b"].to_numpy(), both["run"].to_numpy())
 
 
 def _right(columns: Columns, chosen: "np.ndarray[Any, Any]") -> float | None:

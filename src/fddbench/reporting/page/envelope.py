@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fddbench.interfaces import Floats
-from fddbench.reporting.formats import count, percent, short
+from fddbench.reporting.formats import count, percent, shorts
 from fddbench.reporting.labels import label
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.svg.axes import ticks_texts
@@ -73,28 +73,33 @@ def failed_map(columns: Columns, detector: int, x: str, y: str) -> Scene | None:
 
 @dataclass(frozen=True, kw_only=True)
 class Corner:
-    """A cell of the map in words, ``v tas [m/s] 160 to 182, altitude [m] 2000 to 3700``, and its flights."""
+    """A cell of the map in words, ``v tas [m/s] 160 to 182, altitude [m] 2000 to 3700``, its flights, and cells alike."""
 
     where: str
     failed: int
     decided: int
+    alike: int
 
 
 def worst_and_best(columns: Columns, detector: int, x: str, y: str) -> tuple[Corner, Corner] | None:
-    """Cells of `failed_map` with the largest and the smallest failed share; None: not two of them have `FEW` flights."""
+    """Cells of `failed_map` with the largest and the smallest failed share; None: no two with `FEW` flights differ in it."""
     places = columns.of(detector)
     cuts = _both(columns, places, x, y)
     if cuts is None:
         return None
     n, k = _decided(columns, places, cuts)
     known = [(i, j) for i, j, _ in _grid(cuts) if n[i, j] >= FEW]
-    if len(known) < 2:
+    shares = [float(k[at] / n[at]) for at in known]
+    if len(set(shares)) < 2:
         return None
-    ordered = sorted(known, key=lambda at: k[at] / n[at])
     worst, best = (
-        Corner(where=f"{cuts[0].words(i)}, {cuts[1].words(j)}", failed=int(k[i, j]), decided=int(n[i, j]))
-        for i, j in (ordered[-1], ordered[0])
-    )
+        Corner(
+            where=f"{cuts[0].words(i)}, {cuts[1].words(j)}", failed=int(k[i, j]), decided=int(n[i, j]),
+            alike=shares.count(share),
+        )
+        for share in (max(shares), min(shares))
+        for i, j in [known[shares.index(share)]]
+    )  # fmt: skip
     return worst, best
 
 
@@ -134,7 +139,7 @@ class _Cut:
     def words(self, i: int) -> str:
         """Cell `i`: its name and its value, or its ends."""
         ends = self.edges[i : i + 2] if self.values is None else self.values[i : i + 1]
-        return f"{label(self.name)} {' to '.join(map(short, ends.tolist()))}"
+        return f"{label(self.name)} {' to '.join(shorts(ends.tolist()))}"
 
     @property
     def side(self) -> Side:

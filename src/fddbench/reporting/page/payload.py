@@ -143,14 +143,16 @@ def fitted_of(own: SizeCurve) -> Fitted | None:
     if own.curve is None:
         return None
     sizes = np.geomspace(max(float(own.low[0]), 1e-12), float(own.high[-1]), _POINTS)
-    near = [None if end is None or end > _FAR * sizes[-1] else end for end in (own.curve.size_90, own.curve.size_90_95)]
+    near = [
+        None if end is None or end > _DRAWN_TO * sizes[-1] else end for end in (own.curve.size_90, own.curve.size_90_95)
+    ]
     return Fitted(
         middles=own.middle.tolist(), sizes=sizes.tolist(), shares=own.curve.share(sizes).tolist(), size_90=near[0],
         size_90_95=near[1],
     )  # fmt: skip
 
 
-_POINTS, _FAR = 25, 1.5
+_POINTS, _DRAWN_TO = 25, 1.5
 """Points of a drawn curve; how far beyond the largest size flown its end may be drawn."""
 
 

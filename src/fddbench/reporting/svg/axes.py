@@ -81,7 +81,7 @@ def ticks_texts(values: Sequence[float]) -> list[str]:
         found = [ticks_text(value, digits) for value in values]
         if len(set(found)) == len(set(values)):
             return found
-    return [ticks_text(value, _MOST_DIGITS) for value in values]
+    return [ticks_text(value) for value in values]  # they differ by rounding
 
 
 @dataclass(frozen=True)

@@ -50,7 +50,7 @@ function curve(s, d) {
   const me = D.c[s][d];
   if (me.i && me.i[2].some(k => k)) g += `<path class="wr" d="${steps(me, me.i[2])}"/>`;
   const key = own.sort((p, q) => p[0] - q[0]).map(([j]) => `<li><svg viewBox="0 0 28 9" aria-hidden="true"><path class="s${j % 16}" d="M0 5h28"/></svg>${esc(D.d[j])}</li>`).join('');
-  return `<figure><h3>Found right, by time</h3><svg viewBox="0 0 560 250" role="img" aria-label="Share of all flights found by each time">${g}</svg><ul class="key">${key}</ul><figcaption>Share of all flown flights, 95 % band of ${esc(D.d[d])} pointwise; a wrong verdict is never taken out of n. Dashed: limit.${me.i && me.i[2].some(k => k) ? ' Dotted red: a healthy site declared, here.' : ''}${me.i && me.i[5] ? ` ${me.i[5]} more lost to an alarm before the onset.` : ''} A curve ends where the first open flight ends.</figcaption></figure>`;
+  return `<figure><h3>Found right, by time</h3><svg viewBox="0 0 560 250" role="img" aria-label="Share of all flights found by each time">${g}</svg><ul class="key">${key}</ul><figcaption>Share of all flown flights${me.i && me.i[0].length && me.i[3][0] !== null ? `, 95 % band of ${esc(D.d[d])} pointwise` : ''}; a wrong verdict is never taken out of n. Dashed: limit.${me.i && me.i[2].some(k => k) ? ' Dotted red: a healthy site declared, here.' : ''}${me.i && me.i[5] ? ` ${me.i[5]} more lost to an alarm before the onset.` : ''} A curve ends where the first open flight ends.</figcaption></figure>`;
 }
 function parts(name, labels, k, n, lo, hi, cls, what, foot) {
   const m = labels.length, W = Math.max(300, 52 * m + 50), w = (W - 56) / m, Y = p => R(8 + 96 * (1 - p));
