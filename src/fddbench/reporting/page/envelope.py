@@ -11,6 +11,7 @@ import numpy.typing as npt
 from fddbench.interfaces import Floats
 from fddbench.reporting.formats import count, percent, shorts
 from fddbench.reporting.labels import label
+from fddbench.reporting.names import TITLE, shortened
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.svg.axes import ticks_texts
 from fddbench.reporting.svg.heat import HeatCell, Side, heat_scene
@@ -66,7 +67,7 @@ def failed_map(columns: Columns, detector: int, x: str, y: str) -> Scene | None:
             cells.append(HeatCell(**ends, dark=None, text="inf."))
     name = columns.detectors[detector]
     return heat_scene(
-        cells, x=cuts[0].side, y=cuts[1].side, title=name,
+        cells, x=cuts[0].side, y=cuts[1].side, title=shortened(columns.detectors, TITLE)[name],
         label=f"Failed share [%] of {name} over {label(x)} and {label(y)}",
     )  # fmt: skip
 
