@@ -12,7 +12,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 import yaml
-from tests.runner.test_killed_processes import below
+from tests.runner.living import below
 
 import fddbench
 from fddbench import gallery
