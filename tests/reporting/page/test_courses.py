@@ -5,7 +5,7 @@ import pytest
 
 from fddbench.metrics.alarms import summarize_alarms
 from fddbench.reporting.page.columns import Columns
-from fddbench.reporting.page.courses import courses, worst_value
+from fddbench.reporting.page.courses import courses, found_at, worst_value
 from fddbench.reporting.page.ranking import ranking
 
 GUST = "p_gust_gradient_m"
@@ -74,3 +74,23 @@ def test_a_value_that_some_scenarios_do_not_fly_is_not_compared(told):
     rows = rows[~((rows["scenario"] == "jam_a") & (rows[GUST] == 15.0))].reset_index(drop=True)
     ranks = ranking(Columns(rows), summarize_alarms(rows))
     assert worst_value("Which discrete gust is worst?", Columns(rows), [GUST], ranks) == []
+
+
+def test_where_faults_are_found_is_said_where_it_is_asked(told):
+    def outcome(s, d, run):
+        return "missed" if (d == "one" and run % 4 in (0, 3)) or d == "two" else "right"
+
+    rows = told(("jam_a",), ("one", "two", "three"), 80, outcome)
+    number = rows["run"].to_numpy(dtype=int)
+    rows[GUST], rows["run"] = np.array([9.0, 15.0, 25.0, 40.0])[number % 4], number // 4
+    columns = Columns(rows)
+    ranks = ranking(columns, summarize_alarms(rows))
+
+    def said(about):
+        return "".join(piece for piece, _ in found_at(about, columns, [GUST], ranks))
+
+    assert said("At which gusts is a jam found?") == (
+        "Right in 90 % or more at gust gradient [m] of 9 to 40, jam_a: three at all 4; one at 15 to 25; two at none. "
+    )
+    assert said("Which detector is best?") == ""
+    assert found_at("At which gusts?", columns, ["p_mass_kg"], ranks) == []

@@ -23,7 +23,7 @@ from fddbench.reporting.page.cells import Cell, cells
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.page.convergence import convergence_scene
 from fddbench.reporting.page.counted import COUNTED_HEADS, counted_lines
-from fddbench.reporting.page.courses import courses, loudest, worst_value
+from fddbench.reporting.page.courses import courses, found_at, loudest, worst_value
 from fddbench.reporting.page.data import ReportData
 from fddbench.reporting.page.envelope import envelope_maps, envelope_pairs, infeasible_map
 from fddbench.reporting.page.led_by import of_envelope, of_points, of_print, of_quiet
@@ -124,9 +124,11 @@ def _answer(report: ReportData, ranks: Sequence[Rank], columns: Columns, compare
     first += of_envelope(about, columns, report.envelope_axes, report.swept, best)
     first += of_print(about, compared, ranks[0].detector if ranks else "")
     first += worst_value(about, columns, report.swept, ranks)
+    where = found_at(about, columns, report.swept, ranks)
     second = second_beside_best(columns, ranks)
     along = report.operating is None and asks_of_what_varies(about)
-    return first + answer(ranks, second, courses=courses(columns, report.swept), loudest=loud, along_first=along)
+    course = [] if where else courses(columns, report.swept)
+    return first + where + answer(ranks, second, courses=course, loudest=loud, along_first=along)
 
 
 _MOST_MAPS = 6

@@ -1,7 +1,8 @@
-"""How the right share goes over what a campaign varies, which value is worst, and where healthy flights are loudest."""
+"""How the right share goes over what is varied, where faults are found, which value is worst, where alarms are most."""
 
 import re
 from collections.abc import Sequence
+from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -16,9 +17,9 @@ from fddbench.reporting.page.answer import Course
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.page.ranking import Rank
 
-__all__ = ["courses", "loudest", "worst_value"]
+__all__ = ["courses", "found_at", "loudest", "worst_value"]
 
-_MOST_VALUES, _SURE = 12, 0.05
+_MOST_VALUES, _SURE, _MOST_TOLD, _MOST_FOUND = 12, 0.05, 6, 90.0
 
 
 def courses(columns: Columns, swept: Sequence[str]) -> list[Course]:
@@ -103,6 +104,47 @@ def _beside(columns: Columns, a: "np.ndarray[Any, Any]", b: "np.ndarray[Any, Any
         sides.append(side.assign(number=side.groupby(keys[:2]).cumcount()))
     both = sides[0].merge(sides[1], on=keys, suffixes=("_a", "_b"))
     return paired_shares(both["right_a"].to_numpy(), both["right_b"].to_numpy(), both["run"].to_numpy())
+
+
+def found_at(about: str, columns: Columns, swept: Sequence[str], ranks: Sequence[Rank]) -> Said:
+    """At which values of what is swept faults of each scenario are found, where a campaign asks at which.
+
+    ``Right in 90 % or more at fault 1 frequency [Hz] of 0.05 to 10, one_sensor: coast at all 12; sliding_mode at 0.3 to 2.``
+    """
+    names = [name for name in swept if len(_values(columns, name, everywhere=True))]
+    if not re.match(r"At which\b", about) or not names:
+        return []
+    known, values = _values(columns, names[0], everywhere=True), columns.numbers(names[0])
+    shown = shorts(known.tolist())
+    said: Said = [(f"Right in {_MOST_FOUND:g} % or more at {_called(names[0])} of {shown[0]} to {shown[-1]}, ", False)]
+    for s, scenario in list(enumerate(columns.scenarios))[:_MOST_TOLD]:
+        here = columns.faulty & columns.decided & (columns.scenario == s)
+        at: dict[str, list[str]] = {}
+        for line in ranks if here.any() else ():
+            own = here & (columns.detector == line.number)
+            shares = [_right(columns, own & (values == value)) for value in known]
+            if any(share is not None for share in shares):
+                told = _stretches([share is not None and share >= _MOST_FOUND for share in shares], shown)
+                at.setdefault(told, []).append(line.detector)
+        words = "; ".join(f"{_listed(who)} at {told}" for told, who in at.items())
+        said += [(scenario, True), (f": {words}. ", False)] if words else []
+    return said if len(said) > 1 else []
+
+
+def _listed(names: Sequence[str]) -> str:
+    return " and ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
+
+
+def _stretches(found: Sequence[bool], shown: Sequence[str]) -> str:
+    """``0.3 to 2 and 9.5``, ``all 12``, ``none`` of values in their order."""
+    if all(found) or not any(found):
+        return f"all {len(found)}" if all(found) else "none"
+    parts = []
+    for there, group in groupby(range(len(found)), key=lambda i: found[i]):
+        own = list(group)
+        if there:
+            parts.append(shown[own[0]] if len(own) == 1 else f"{shown[own[0]]} to {shown[own[-1]]}")
+    return _listed(parts)
 
 
 def _right(columns: Columns, chosen: "np.ndarray[Any, Any]") -> float | None:
