@@ -5,6 +5,7 @@ import importlib
 import inspect
 import pkgutil
 import re
+import subprocess
 from importlib.metadata import entry_points
 from pathlib import Path
 from typing import get_args
@@ -15,6 +16,7 @@ import fddbench
 from fddbench import kinds
 
 SOURCE = Path(fddbench.__file__).parent
+ROOT = Path(__file__).parents[1]
 FILES = sorted(SOURCE.rglob("*.py"))
 MODULES = sorted(m.name for m in pkgutil.walk_packages(fddbench.__path__, "fddbench.") if m.name != "fddbench.__main__")
 BANNED = {"utils", "util", "common", "helpers", "core", "misc"}
@@ -31,6 +33,18 @@ def test_rooms_are_small(path):
     ]
     assert not long
     assert path.stem not in BANNED
+
+
+@pytest.mark.skipif(not (ROOT / ".git").exists(), reason="no repository")
+def test_what_is_under_version_control_is_small():
+    """Wheels that a download had left in the folder were once committed with everything else."""
+    files = subprocess.run(
+        ["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True
+    ).stdout.split("\0")
+    large = [
+        name for name in filter(None, files) if (ROOT / name).is_file() and (ROOT / name).stat().st_size > 1_000_000
+    ]
+    assert not large
 
 
 @pytest.mark.parametrize("name", MODULES)

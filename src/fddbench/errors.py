@@ -18,6 +18,7 @@ from pathlib import Path
 __all__ = [
     "CampaignError",
     "DesignError",
+    "EndedError",
     "FddbenchError",
     "Mistake",
     "OtherProgramWarning",
@@ -187,6 +188,18 @@ class DesignError(FddbenchError):
     def __str__(self) -> str:
         """The message as written."""
         return self.message
+
+
+@dataclass(eq=False)
+class EndedError(FddbenchError):
+    """A detector's process is gone, was ended, or is none: the status of its row, and what is known."""
+
+    status: str
+    message: str
+
+    def __str__(self) -> str:
+        """The message; before it the status, as rows have it, where that is more than an error."""
+        return self.message if self.status == "error" else f"{self.status}: {self.message}"
 
 
 @dataclass(eq=False)

@@ -95,14 +95,21 @@ def load_class(name: str, folder: Path) -> LoadedClass:
     return LoadedClass(getattr(loaded.module, match[2]), {path.name: text, **loaded.others})
 
 
+_INCLUDES = re.compile(r"""\s*#\s*include\s*(?:"([^"]*)"|<(?=/|[^>]*\.\.)([^>]*)>)""")
+"""Line of C that includes a file by quotes, or one of nobody's library."""
+
+
 def code_in(name: str, folder: Path) -> dict[str, bytes]:
     """Headers and sources of C in a folder beside a design, by their names from there; self-tests and vectors left out.
 
     Raises
     ------
     FddbenchError
-        It is not beside the design, or holds no source.
+        It is not beside the design, holds no source, or includes what does not travel with it.
     """
+    plain = name.rstrip("/")
+    if not plain or plain != Path(plain).as_posix() or Path(plain).is_absolute() or ".." in Path(plain).parts:
+        raise FddbenchError(f"{name!r} is no name of a folder beside the design; write it from there, such as supplier")
     refused = _refused.get()
     if refused is not None:
         refused.append(name)
@@ -120,7 +127,16 @@ def code_in(name: str, folder: Path) -> dict[str, bytes]:
         raise FddbenchError(
             f"{where} holds no .c file; it needs the source, and the header that fddbench export writes"
         )
-    return {f"{name.rstrip('/')}/{path.name}": path.read_bytes() for path in kept}
+    found = {path.name: path.read_bytes() for path in kept}
+    for file, text in found.items():
+        for number, line in enumerate(text.decode("utf-8", "replace").splitlines(), 1):
+            beside = _INCLUDES.match(line)
+            if beside and beside[1] not in found:
+                raise FddbenchError(
+                    f"{where / file}:{number} includes {beside[1] or beside[2]!r}, which is no file of this folder and "
+                    "would not travel with the results; put it there and write its bare name"
+                )
+    return {f"{plain}/{file}": text for file, text in found.items()}
 
 
 def _defined_in(value: Any, module: ModuleType) -> bool:

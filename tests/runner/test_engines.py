@@ -46,7 +46,9 @@ def test_threads_are_one_process(campaign, clean, tmp_path):
 def test_what_an_engine_cannot_do_is_refused_before_anything_is_written(campaign, tmp_path, monkeypatch, capsys):
     out = tmp_path / "out"
     plain = write(tmp_path, {"plain": PLAIN})
-    with pytest.raises(FddbenchError, match="--engine threads: plain flies in Python here.*take auto or loky"):
+    with pytest.raises(
+        FddbenchError, match="--engine threads: plain flies outside of compiled code here.*take auto or loky"
+    ):
         fddbench.run(plain, out, engine="threads")
     with pytest.raises(FddbenchError, match="no engine is called 'slurm'; there are auto, threads, loky, dask, ray"):
         fddbench.run(campaign, out, engine="slurm")

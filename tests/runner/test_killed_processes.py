@@ -6,10 +6,10 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import pytest
 from tests.runner.jammed import jammed
+from tests.runner.living import below
 from tests.runner.plugins import PLAIN, write
 from tests.runner.tables import digest
 
@@ -20,18 +20,6 @@ pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc"),
 ]
-
-
-def below(mark):
-    """Command lines by number of the processes that have a mark in their environment and live."""
-    found = {}
-    for path in Path("/proc").glob("[0-9]*"):
-        try:
-            if mark.encode() in (path / "environ").read_bytes() and b") Z " not in (path / "stat").read_bytes():
-                found[int(path.name)] = (path / "cmdline").read_bytes().decode()
-        except OSError:
-            continue
-    return found
 
 
 def flown_while_killing(path, out, options, word, kills, chance, least=1):

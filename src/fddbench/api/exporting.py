@@ -9,7 +9,8 @@ import numpy as np
 
 from fddbench.designs.design import Design
 from fddbench.errors import DesignError
-from fddbench.exported.child import Child, main_text
+from fddbench.exported.child import Child
+from fddbench.exported.child_main import main_text
 from fddbench.exported.code import Code, code_of, sources, with_vectors
 from fddbench.exported.compiling import built, compiler, selftest_command
 from fddbench.exported.flown_c import FlownC

@@ -46,7 +46,7 @@ def replay(source: "Campaign | str | Path", case: str, detectors: Sequence[str] 
     declared = {name: found.declared[name] for name in detectors}
     return Recording(
         scenario=found.scenario, cases=found.cases, time_s=found.time_s, onset_s=found.onset_s, signals=found.signals,
-        detectors=kept, declared=declared,
+        detectors=kept, declared=declared, errors={name: found.errors[name] for name in detectors if name in found.errors},
     )  # fmt: skip
 
 

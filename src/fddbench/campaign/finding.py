@@ -30,7 +30,7 @@ def find_campaign(path: Path) -> Path:
         return shipped[bare]
     what = _folder(path) if path.is_dir() else "no such file."
     hint = "" if path.is_dir() else did_you_mean(bare, shipped)
-    names = f"Shipped campaigns: {', '.join(sorted(shipped)) or 'none'}"
+    names = f"{len(shipped)} campaigns are shipped (`fddbench list campaigns`)"
     raise CampaignError((Mistake(str(path), " ".join(filter(None, [what, hint, "" if path.is_dir() else names]))),))
 
 

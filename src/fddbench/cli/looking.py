@@ -32,7 +32,10 @@ def replay(args: argparse.Namespace) -> int:
     print(f"flight {recording.cases[0]}: {onset}, {len(recording.time_s)} samples")
     for detector, time_s, sites, alarm in declarations(recording):
         print(f"  {time_s:9.2f} s  {detector} declares {sites or ('alarm' if alarm else 'nothing any more')}")
-    silent = set(recording.detectors) - {name for name, *_ in declarations(recording)}
+    ended = {name: reasons[0] for name, reasons in recording.errors.items() if reasons[0]}
+    for detector, reason in ended.items():
+        print(f"  {detector} did not come to its end: {reason}")
+    silent = set(recording.detectors) - {name for name, *_ in declarations(recording)} - set(ended)
     if silent:
         print(f"  {', '.join(name for name in recording.detectors if name in silent)}: nothing")
     for path in filter(None, (args.plot, args.to)):

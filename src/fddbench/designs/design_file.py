@@ -30,12 +30,12 @@ class TunedOn(Strict):
 
 
 class Limits(Strict):
-    """What a detector in ordinary Python may take, in a process of its own; beyond, its row has the status that says so.
+    """What ordinary Python, or C not written here, may take in its process; beyond, its row has the status that says so.
 
     Attributes
     ----------
     step_s : float
-        Longest step of a flight [s], by the clock on the wall: a row of status ``timeout``.
+        Longest step of a flight, in C of all flights together [s], by the clock on the wall: a row of status ``timeout``.
     memory_mb : float
         Memory that its flights may take beyond what it has when it is built [MB]: ``memory``.
     """
@@ -62,7 +62,7 @@ class DesignFile(Strict):
     symbols : str, list of symbols, or None
         Library of operations that it must keep to, see `fddbench.exported.symbols`.
     limits : Limits
-        What a step may take where the detector is ordinary Python.
+        What a step may take where the detector is ordinary Python, or C that was not written here.
     recipe : mapping, or None
         What ``fddbench design`` makes the gains from, and what it found.
     gains : mapping

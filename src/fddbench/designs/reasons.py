@@ -5,7 +5,7 @@ from traceback import walk_tb
 from types import SimpleNamespace
 from typing import Any
 
-from fddbench.errors import DesignError, did_you_mean, one_line, reason_of
+from fddbench.errors import DesignError, EndedError, did_you_mean, one_line, reason_of
 from fddbench.interfaces import Bus
 
 __all__ = ["missing_signal", "place_in", "reason_at", "same_line"]
@@ -25,9 +25,10 @@ def place_in(error: BaseException, detector: Any, method: str) -> str:
 
 def reason_at(error: BaseException, detector: Any) -> str:
     """What a step raised and in which line of its file, in at most 200 characters; the same in whichever folder it lies."""
-    lines = _own_lines(error, detector)
+    ended = isinstance(error, EndedError)  # its line is ours
+    lines = [] if ended else _own_lines(error, detector)
     place = f" ({Path(lines[-1][0]).name}:{lines[-1][1]})" if lines else ""
-    said = one_line(str(error)) if isinstance(error, DesignError) else reason_of(error)
+    said = one_line(str(error)) if ended or isinstance(error, DesignError) else reason_of(error)
     if len(said) + len(place) > _LONGEST:
         said = said[: _LONGEST - len(place) - 3] + "..."
     return said + place
@@ -35,6 +36,8 @@ def reason_at(error: BaseException, detector: Any) -> str:
 
 def same_line(error: BaseException, detector: Any) -> tuple[str, str]:
     """What two errors share that are the same error at the same line, whatever numbers their texts show."""
+    if isinstance(error, EndedError):
+        return error.status, error.message
     lines = _own_lines(error, detector)
     return type(error).__name__, f"{lines[-1][0]}:{lines[-1][1]}" if lines else reason_of(error)
 

@@ -32,6 +32,11 @@ def variants(
     mistakes: list[Mistake] = []
     for key, sweep in sweeps.items():
         at = (*address, "sweep", key)
+        if design.code:
+            mistakes.append(
+                document.mistake(at, f"{design.name!r} flies the C of {design.code}, whose numbers are in the C")
+            )
+            continue
         if sweep.scale is not None and not _can_be_scaled(design, key):
             mistakes.append(
                 document.mistake(

@@ -25,8 +25,12 @@ def thresholds_of(design: Design, only: Sequence[str] = ()) -> dict[str, str]:
     Raises
     ------
     DesignError
-        The kind does not say it, or says it wrongly, or has no such threshold.
+        The kind does not say it, or says it wrongly, or has no such threshold; or the design flies somebody's C.
     """
+    if design.code:
+        raise DesignError(
+            f"{design.name} flies the C of {design.code}, whose thresholds are in the C; tune a design without code"
+        )
     said: Any = getattr(design.kind.member.Gains, "THRESHOLDS", None)
     example = 'THRESHOLDS: ClassVar = {"limit": "up"} in its Gains: gain -> direction that quiets it, up or down'
     if not said:

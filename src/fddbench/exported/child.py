@@ -2,104 +2,35 @@
 
 import os
 import select
+import signal
 import struct
 import subprocess
+import time
+from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from fddbench.errors import FddbenchError, signal_name
+from fddbench.errors import EndedError, signal_name
+from fddbench.exported.child_main import ANSWER, MAGIC, SHORT_OF_MEMORY
 
-__all__ = ["IMPATIENT_S", "Child", "CodeError", "HungError", "main_text"]
+__all__ = ["Child", "CodeError", "GoneError"]
 
 Bytes = npt.NDArray[np.uint8]
-_MAGIC = 0x0FDDBE4C
 PATIENCE_S = 20.0
-IMPATIENT_S = 2.0
-"""How long a step of all flights may last [s], and how long once the code has hung."""
+"""How long a step of all flights may last [s]."""
+_LAST_S = 1.0
+"""How long code may go on whose files are closed [s]."""
 
 
-_MAIN = """\
-/* Steps many flights of {name} at a request: a count, then state and inputs of each; back come state and outputs.
- * What the code itself prints goes nowhere, and what it reads is empty. */
-#define _POSIX_C_SOURCE 200809L
-
-#include "{name}.h"
-
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-int main(void)
-{{
-    static {name}_state_t start;
-    uint32_t sizes[4] = {{
-        {magic}U, (uint32_t)sizeof({name}_state_t), (uint32_t)sizeof({name}_inputs_t), (uint32_t)sizeof({name}_outputs_t)
-    }};
-    unsigned char *taken = NULL;
-    unsigned char *given = NULL;
-    uint32_t room = 0U;
-    uint32_t n = 0U;
-    size_t in = sizeof({name}_state_t) + sizeof({name}_inputs_t);
-    size_t out = sizeof({name}_state_t) + sizeof({name}_outputs_t);
-    FILE *from = fdopen(dup(0), "rb");
-    FILE *to = fdopen(dup(1), "wb");
-    if ((from == NULL) || (to == NULL) || (freopen("/dev/null", "r", stdin) == NULL)
-        || (freopen("/dev/null", "w", stdout) == NULL))
-    {{
-        return 5;
-    }}
-    (void)memset(&start, 0, sizeof(start));
-    {name}_init(&start);
-    (void)fwrite(sizes, sizeof(sizes), 1, to);
-    (void)fwrite(&start, sizeof(start), 1, to);
-    (void)fflush(to);
-    while (fread(&n, sizeof(n), 1, from) == 1U)
-    {{
-        uint32_t k;
-        if (n > room)
-        {{
-            free(taken);
-            free(given);
-            room = n;
-            taken = malloc(room * in);
-            given = malloc(room * out);
-            if ((taken == NULL) || (given == NULL)) {{ return 3; }}
-        }}
-        if ((n > 0U) && (fread(taken, in, n, from) != n)) {{ return 4; }}
-        for (k = 0U; k < n; k++)
-        {{
-            {name}_state_t state;
-            {name}_inputs_t inputs;
-            {name}_outputs_t outputs;
-            (void)memcpy(&state, taken + (k * in), sizeof(state));
-            (void)memcpy(&inputs, taken + (k * in) + sizeof(state), sizeof(inputs));
-            (void)memset(&outputs, 0, sizeof(outputs));
-            {name}_step(&inputs, &state, &outputs);
-            (void)memcpy(given + (k * out), &state, sizeof(state));
-            (void)memcpy(given + (k * out) + sizeof(state), &outputs, sizeof(outputs));
-        }}
-        (void)fwrite(given, out, n, to);
-        (void)fflush(to);
-    }}
-    return 0;
-}}
-"""
+class CodeError(EndedError):
+    """Code crashed, hung or spoke nonsense."""
 
 
-class CodeError(FddbenchError):
-    """Foreign code crashed, hung or spoke nonsense."""
-
-
-class HungError(CodeError):
-    """It does not answer."""
-
-
-def main_text(name: str) -> str:
-    """Text of the main around a detector."""
-    return _MAIN.format(name=name, magic=_MAGIC)
+class GoneError(CodeError):
+    """Its process ended: perhaps not of itself, or for what it had kept from earlier steps."""
 
 
 class Child:
@@ -113,22 +44,35 @@ class Child:
         What runs it: qemu, valgrind; nothing by default.
     patience_s : float
         How long a step of all flights may last [s].
+    memory_mb : float
+        Memory that it may take beyond what it has when it begins [MB]; 0: any.
     """
 
-    def __init__(self, program: Path, wrapper: tuple[str, ...] = (), patience_s: float = PATIENCE_S) -> None:
-        self._patience_s, self._swapped = patience_s, False
+    def __init__(
+        self, program: Path, wrapper: tuple[str, ...] = (), *, patience_s: float = PATIENCE_S, memory_mb: float = 0.0
+    ) -> None:
+        self.patience_s, self._memory_mb, self._swapped, self._answers = patience_s, memory_mb, False, 0
+        self._until = time.monotonic() + patience_s
         try:
             self._process = subprocess.Popen(
-                [*wrapper, str(program)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, bufsize=0,
+                [*wrapper, str(program), str(os.getpid()), f"{memory_mb:.0f}"],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.DEVNULL,
+                bufsize=0,
                 start_new_session=True,
-            )  # fmt: skip
+            )
         except OSError as error:
-            raise CodeError(f"{program} cannot be run: {error}") from error
+            raise CodeError("error", f"{program} cannot be run: {error}") from error
+        assert self._process.stdin is not None
+        os.set_blocking(self._process.stdin.fileno(), False)  # it may stop reading
         head = self._read(16)
-        self._swapped = struct.unpack("=I", head[:4])[0] != _MAGIC
+        self._swapped = struct.unpack("=I", head[:4])[0] != MAGIC
         magic, self.state_size, self.inputs_size, self.outputs_size = struct.unpack(self._order + "4I", head)
-        if magic != _MAGIC:
-            raise CodeError("the code wrote to its standard output while it was loaded, which belongs to the flight")
+        if magic != MAGIC:
+            raise CodeError(
+                "error", "the code wrote to its standard output while it was loaded, which belongs to the flight"
+            )
         self.start = np.frombuffer(self._read(self.state_size), dtype=np.uint8)
 
     @property
@@ -149,7 +93,11 @@ class Child:
             It crashed or does not answer.
         """
         n = len(state)
+        self._until, self._answers = time.monotonic() + self.patience_s, self._answers + 1
         self._write(struct.pack(self._order + "I", n) + np.concatenate([state, inputs], axis=1).tobytes())
+        if struct.unpack(self._order + "2I", self._read(8)) != (ANSWER, self._answers):
+            self._kill()
+            raise CodeError("crashed", "it wrote to files that are not its own")
         size = self.state_size + self.outputs_size
         rows = np.frombuffer(self._read(n * size), dtype=np.uint8).reshape(n, size)
         return rows[:, : self.state_size], rows[:, self.state_size :]
@@ -162,12 +110,8 @@ class Child:
                     stream.close()
                 except OSError:
                     continue
-        if self._process.poll() is None:
-            try:
-                self._process.wait(2.0)
-            except subprocess.TimeoutExpired:
-                self._process.kill()
-                self._process.wait()
+        if self._process.returncode is None:
+            self._wait(2.0)
 
     def __del__(self) -> None:
         """A program does not outlive its flights."""
@@ -179,7 +123,8 @@ class Child:
         view = memoryview(data)
         try:
             while view:
-                view = view[self._process.stdin.write(view) :]
+                self._wait_for([], [self._process.stdin])
+                view = view[self._process.stdin.write(view) or 0 :]
         except OSError as error:
             raise self._ended() from error
 
@@ -187,10 +132,7 @@ class Child:
         assert self._process.stdout is not None
         parts, left = [], size
         while left:
-            ready, _, _ = select.select([self._process.stdout], [], [], self._patience_s)
-            if not ready:
-                self._process.kill()
-                raise HungError("the code does not answer: a loop without end?")
+            self._wait_for([self._process.stdout], [])
             part = self._process.stdout.read(left)
             if not part:
                 raise self._ended()
@@ -198,8 +140,36 @@ class Child:
             left -= len(part)
         return b"".join(parts)
 
+    def _wait_for(self, reading: list[Any], writing: list[Any]) -> None:
+        """Until a pipe is ready; the time of a step is that of all its parts."""
+        if not any(select.select(reading, writing, [], max(self._until - time.monotonic(), 0.0))):
+            self._kill()
+            raise CodeError("timeout", f"no answer in {self.patience_s:g} s")
+
+    def _kill(self) -> None:
+        """End it, and what it has begun: it leads a group of its own."""
+        with suppress(OSError):
+            os.killpg(self._process.pid, signal.SIGKILL)
+
+    def _wait(self, patience_s: float) -> bool:
+        """Whether it ends by itself; what it has begun ends with it."""
+        try:
+            self._process.wait(patience_s)
+            ended = True
+        except subprocess.TimeoutExpired:
+            ended = False
+        self._kill()
+        self._process.wait()
+        return ended
+
     def _ended(self) -> CodeError:
-        code = self._process.wait()
-        if code < 0:
-            return CodeError(f"the code crashed: {signal_name(-code)}")
-        return CodeError(f"the code ended its process with {code}; a step only returns")
+        """Why it is gone."""
+        if not self._wait(_LAST_S):
+            return CodeError("crashed", "it closed files that are not its own")
+        code = self._process.returncode
+        if code == SHORT_OF_MEMORY:
+            return GoneError("memory", f"it needs more than {self._memory_mb:g} MB")
+        what = (
+            f"its process died of {signal_name(-code)}" if code < 0 else f"it ended its process with exit code {code}"
+        )
+        return GoneError("crashed", what)

@@ -89,8 +89,8 @@ def compiler(command: str = "", flags: tuple[str, ...] = ()) -> Compiler:
 
 
 def selftest_command(name: str) -> str:
-    """How a user compiles and runs the self-test of an export in its folder; at plain -O2 one flag is enough."""
-    return f"cc {' '.join(_FLAGS)} {_UNCONTRACTED[0]} {name}.c {name}_selftest.c -lm && ./a.out"
+    """How a user compiles and runs the self-test of an export in its folder."""
+    return f"cc {' '.join(_FLAGS)} {' '.join(_UNCONTRACTED)} {name}.c {name}_selftest.c -lm && ./a.out"
 
 
 def built(sources: Mapping[str, str], by: Compiler, main: Sequence[str] = ()) -> Path:

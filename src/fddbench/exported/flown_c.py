@@ -40,8 +40,9 @@ class FlownC:
         self.bytes = 4 if child.inputs_size == 4 * n_in and child.outputs_size == 4 * n_out else 8
         if (child.inputs_size, child.outputs_size) != (self.bytes * n_in, self.bytes * n_out):
             raise CodeError(
+                "error",
                 f"inputs and outputs of the code take {child.inputs_size} and {child.outputs_size} bytes, the interface of "
-                f"{interface.name} has {n_in} and {n_out} numbers; take its header as fddbench export writes it"
+                f"{interface.name} has {n_in} and {n_out} numbers; take its header as fddbench export writes it",
             )
         self._real = np.dtype(f"{child.number_type}f{self.bytes}")
         self._pad = -child.state_size % 8

@@ -82,7 +82,7 @@ class LoadInC:
     def __str__(self) -> str:
         """In one line."""
         stack = "" if self.stack_bytes is None else f", stack {self.stack_bytes} B"
-        ticks = "" if self.ticks is None else f"; {self.ticks} time-stamp ticks a step here, inputs 0"
+        ticks = "" if self.ticks is None else f"; {self.ticks} time-stamp ticks a step here, all inputs 0"
         return (
             f"in C: code {self.code_bytes} B, tables {self.table_bytes} B, state {self.state_bytes} B{stack}{ticks}; no loop "
             f"depends on data ({self.by})"

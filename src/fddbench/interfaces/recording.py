@@ -1,6 +1,6 @@
 """Signals of flights that were flown again."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from fddbench.interfaces.floats import Floats
@@ -31,6 +31,8 @@ class Recording:
         Per detector ``n_declared``, ``alarm``, ``residual`` and what it announced in ``recorded``.
     declared : mapping of str to mapping of str to (n_time, n_cases) arrays
         Per detector and fault site 1 where it is declared, else 0.
+    errors : mapping of str to (n_cases,) sequences of str
+        Per detector why it did not come to the end of each flight, "" where it did; of detectors that always did nothing.
     """
 
     scenario: str
@@ -40,6 +42,7 @@ class Recording:
     signals: Mapping[str, Floats]
     detectors: Mapping[str, Mapping[str, Floats]]
     declared: Mapping[str, Mapping[str, Floats]] = field(default_factory=dict)
+    errors: Mapping[str, Sequence[str]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True)

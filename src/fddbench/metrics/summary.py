@@ -95,6 +95,7 @@ def summarize(rows: pd.DataFrame, *, in_sample: Collection[str] = ()) -> pd.Data
     DataFrame
         One line per scenario and detector. Where nothing was flown counts are 0 and rates null.
     """
+    rows = rows[list(NEEDS)]
     # places, not groups: all groups at once would be a second table
     groups = rows.groupby(["scenario", "detector"], sort=False).indices
     pairs = [(scenario, detector) for scenario in rows["scenario"].unique() for detector in rows["detector"].unique()]

@@ -8,6 +8,7 @@ import numpy as np
 
 from fddbench.interfaces import Bands, Floats, Response
 from fddbench.reporting.labels import label
+from fddbench.reporting.names import TITLE, shortened
 from fddbench.reporting.signals import signal_panels
 from fddbench.reporting.svg.axes import Plot, linear
 from fddbench.reporting.svg.palette import SERIES, band
@@ -106,7 +107,7 @@ def _response(bands: Bands, panel: Response) -> Scene:
 
 
 def _shown(bands: Bands, detector: str, names: Sequence[str], number: int) -> Scene:
-    signals = bands.detectors[detector]
+    signals, title = bands.detectors[detector], shortened(bands.detectors, TITLE)[detector]
     lines = [("ik", signals[names[0]][3])]
     for name in names[1:]:
         lines += [
@@ -116,7 +117,7 @@ def _shown(bands: Bands, detector: str, names: Sequence[str], number: int) -> Sc
         lines.append(("thr", np.ones_like(bands.time_s)))
     return panel_scene(
         Panel(
-            title=detector, y_name=_label(names[0]), time_s=bands.time_s, bands=_bands(signals[names[0]]), lines=lines,
+            title=title, y_name=_label(names[0]), time_s=bands.time_s, bands=_bands(signals[names[0]]), lines=lines,
             onset_s=bands.onset_s, look=band(number % SERIES),
         ),
         points=_MOST_POINTS,
@@ -126,7 +127,7 @@ def _shown(bands: Bands, detector: str, names: Sequence[str], number: int) -> Sc
 def _declared(bands: Bands, detector: str) -> Scene:
     """Shares of flights that declare none, one, two, … sites, stacked."""
     shares: Mapping[int, Floats] = dict(enumerate(bands.declared[detector]))
-    plot = Plot(50, 18, 272, 100, linear(float(bands.time_s[0]), float(bands.time_s[-1]), 6), linear(0.0, 100.0, 3))
+    plot = Plot(50, 18, 264, 100, linear(float(bands.time_s[0]), float(bands.time_s[-1]), 6), linear(0.0, 100.0, 3))
     marks: list[Mark] = []
     bottom = np.zeros_like(bands.time_s)
     for count, share in shares.items():
@@ -135,7 +136,8 @@ def _declared(bands: Bands, detector: str) -> Scene:
         marks.append(Path(corners, _COUNTS[min(count, len(_COUNTS) - 1)], closed=True))
         bottom = top
     names = ", ".join(f"{count}" for count in shares)
-    marks += [Text(50, 12, f"{detector} declares {names} sites", bold=True), *plot.frame("", "flights [%]")]
+    title = f"{shortened(bands.detectors, TITLE // 2)[detector]} declares {names} sites"
+    marks += [Text(50, 12, title, bold=True), *plot.frame("", "flights [%]")]
     if bands.onset_s is not None:
         marks.append(plot.upright(bands.onset_s, "on"))
     return Scene(330, 140, f"Share of flights in which {detector} declares {names} sites, over time", marks)

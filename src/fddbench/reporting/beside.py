@@ -32,14 +32,14 @@ class Told:
     ----------
     detector : str
         Whose line it is.
-    sound : bool
-        Whether all decided flights are right, of a healthy scenario all flown ones quiet.
+    sound : bool or None
+        Whether all decided flights are right, of a healthy scenario all flown ones quiet; None: there is none.
     away : int or None
         Median detection time less that in print, of the first group [samples]; None: one of them is none.
     """
 
     detector: str
-    sound: bool
+    sound: bool | None
     away: int | None
 
 
@@ -116,7 +116,7 @@ def _told(line: Line, table: Published, printed: PublishedRow | None) -> Told:
     ours = _samples(line["detection_time_median_s"], table.sample_s)
     theirs = None if printed is None else printed.detection_time_samples
     away = None if ours is None or theirs is None else ours - theirs
-    return Told(detector=str(line["detector"]), sound=not _fails(line), away=away)
+    return Told(detector=str(line["detector"]), sound=None if not line[_good(line)[1]] else not _fails(line), away=away)
 
 
 def _good(line: Line) -> tuple[str, str]:

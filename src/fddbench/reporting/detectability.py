@@ -9,6 +9,7 @@ from fddbench.metrics.detectable import SHARE
 from fddbench.metrics.smallest import ABOUT, ABOVE, AT_MOST
 from fddbench.reporting.formats import DASH, count, interval, percent, present, rate
 from fddbench.reporting.labels import label
+from fddbench.reporting.names import TITLE, shortened
 from fddbench.reporting.svg.axes import ticks_text
 from fddbench.reporting.svg.heat import HeatCell, Side, heat_scene
 from fddbench.reporting.svg.scene import Scene
@@ -100,9 +101,10 @@ def detectability_scenes(maps: pd.DataFrame, alarms: pd.DataFrame) -> list[dict[
         first = own.iloc[0]
         what = quantity(first["size"], first["times"])
         known = own["smallest"].to_numpy(dtype=float, na_value=np.nan)
+        short = shortened(own["detector"].astype(str), TITLE)
         largest = float(np.max(known, where=np.isfinite(known), initial=0.0))
         scenes = [
-            _scene(group, what, largest or 1.0, false_alarms[detector])
+            _scene(group, what, largest or 1.0, false_alarms[detector], short[str(detector)])
             for detector, group in own.groupby("detector", sort=False)
             if _finite(group)
         ]
@@ -118,13 +120,13 @@ def _finite(group: pd.DataFrame) -> bool:
         return bool(np.isfinite(ends).all() and np.isfinite(np.ptp(ends)))
 
 
-def _scene(group: pd.DataFrame, what: str, largest: float, alarms: Line) -> Scene:
+def _scene(group: pd.DataFrame, what: str, largest: float, alarms: Line, title: str) -> Scene:
     """Map of one detector."""
     sides = {axis: _side(group, axis) for axis in "xy"}
     cells = [_cell(line, largest) for line in group.to_dict("records") if line["flights"]]
     detector = str(group["detector"].iloc[0])
     return heat_scene(
-        cells, x=sides["x"], y=sides["y"], title=detector, note=_beside(alarms), look="o0",
+        cells, x=sides["x"], y=sides["y"], title=title, note=_beside(alarms), look="o0",
         label=f"Smallest {what} found in {100 * SHARE:g} % of flights by {detector}",
     )  # fmt: skip
 

@@ -7,7 +7,8 @@ import numpy as np
 import pandas as pd
 
 from fddbench.metrics.shares import decided, share
-from fddbench.reporting.formats import count, interval, percent, present, rate, seconds, short
+from fddbench.reporting.drawn import is_drawn
+from fddbench.reporting.formats import count, interval, percent, present, rate, seconds, shorts
 from fddbench.reporting.headlines import flown_sentence
 
 __all__ = ["MOST_LINES", "finding_text"]
@@ -61,11 +62,11 @@ def finding_text(
     # the line of those with all sensors comes first
     lines[1:] = sorted(lines[1:], key=lambda line: line.startswith(sees[True]))
     lines += _ranked("Healthy sites declared", groups, _called(in_sample), "wrong_site", worst_first=True)
-    lines += _false_alarms(alarms)
+    lines += _false_alarms(alarms, _called(in_sample))
     lines += _ranked("Missed or late", groups, _called(in_sample), "missed", "late", worst_first=True)
     for name in swept:
         lines += _along(name, groups)
-    lines += _slowest(groups)
+    lines += _slowest(groups, _called(in_sample))
     lines += _not_flown(rows)
     numbered = "".join(f"{i}. {line}\n" for i, line in enumerate(lines[:MOST_LINES], 1))
     return "\n\n".join(filter(None, [f"# {title}", question, numbered])) + (f"\n{footer}\n" if footer else "")
@@ -95,7 +96,7 @@ def _ranked(
     for name, group in groups.items():
         sure = group[decided(group)]
         hits = np.asarray(sure["outcome"].isin(outcomes), dtype=bool)
-        if worst_first and not hits.any():
+        if worst_first and not hits.any() and len(sure):
             nothing.append(called(name))
         elif len(sure):
             found.append((float(hits.mean()), f"{called(name)} {_share(sure, hits)}"))
@@ -130,24 +131,31 @@ def _weakest(groups: Groups, head: str) -> list[str]:
     return _several(head, phrases)
 
 
-def _false_alarms(alarms: pd.DataFrame) -> list[str]:
+def _false_alarms(alarms: pd.DataFrame, called: Callable[[str], str]) -> list[str]:
     """False alarms of distinct flights, and of the silent ones the rate that is not excluded."""
     lines = [line for line in alarms.to_dict("records") if line["distinct_flights"]]
     loud = sorted(
         (line for line in lines if line["alarms"]), key=lambda line: -line["alarms"] / line["distinct_flights"]
     )
-    phrases = [f"{line['detector']} in {_of(line)}{_per_hour(line)}" for line in loud]
-    quiet = [line for line in lines if not line["alarms"]]
-    if quiet:
-        high = [line["false_alarm_high_per_hour"] for line in quiet if present(line["false_alarm_high_per_hour"])]
-        names = ", ".join(str(line["detector"]) for line in quiet) if len(quiet) <= _MOST else f"{len(quiet)} detectors"
+    phrases = [f"{called(str(line['detector']))} in {_of(line)}{_per_hour(line)}" for line in loud]
+    quiet: dict[int, list[Mapping[Any, Any]]] = {}
+    for line in lines:
+        if not line["alarms"]:
+            quiet.setdefault(int(line["distinct_flights"]), []).append(line)
+    for same in quiet.values():
+        high = [line["false_alarm_high_per_hour"] for line in same if present(line["false_alarm_high_per_hour"])]
+        names = (
+            ", ".join(called(str(line["detector"])) for line in same)
+            if len(same) <= _MOST
+            else f"{len(same)} detectors"
+        )
         upper = f" (up to {rate(max(high))} per hour at 95 %)" if high else ""
-        phrases.append(f"none in {_of(quiet[0], all_=True)} by {names}{upper}")
+        phrases.append(f"none in {_of(same[0], all_=True)} by {names}{upper}")
     return _several("False alarms", phrases)
 
 
 def _of(line: Mapping[Any, Any], *, all_: bool = False) -> str:
-    flights = f"{count(line['distinct_flights'])} distinct flights"
+    flights = f"{count(line['distinct_flights'])} distinct flight{'' if line['distinct_flights'] == 1 else 's'}"
     return flights if all_ else f"{count(line['alarms'])} of {flights}"
 
 
@@ -165,14 +173,14 @@ def _along(name: str, groups: Groups) -> list[str]:
     for detector, group in groups.items():
         values = group[name].to_numpy(dtype=float, na_value=np.nan)
         known = np.unique(values[~np.isnan(values)])
-        if 1 < len(known) <= _VALUES:
+        if 1 < len(known) <= _VALUES and not is_drawn(values, group["run"].to_numpy(dtype=float)):
             counts = [_right(group[values == value]) for value in known]
-            shown = [short(value) for value in known]
+            shown = shorts(known.tolist())
             phrases.append(f"{detector} {', '.join(percent(100.0 * k / n) if n else '–' for k, n in counts)}")
     return _several(f"Right [%] at {name} = {', '.join(shown)}", phrases)
 
 
-def _slowest(groups: Groups) -> list[str]:
+def _slowest(groups: Groups, called: Callable[[str], str]) -> list[str]:
     """Largest share of its limit that a detection took."""
     phrases = []
     for name, group in groups.items():
@@ -180,7 +188,7 @@ def _slowest(groups: Groups) -> list[str]:
         if not np.all(np.isnan(ratio)):
             worst = group.iloc[int(np.nanargmax(ratio))]
             time_s = seconds(worst["detection_time_s"])
-            phrases.append(f"{name} {time_s} s in {worst['scenario']} ({np.nanmax(ratio):.2f} of the limit)")
+            phrases.append(f"{called(name)} {time_s} s in {worst['scenario']} ({np.nanmax(ratio):.2f} of the limit)")
     return _several("Slowest", phrases)
 
 

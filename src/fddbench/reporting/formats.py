@@ -1,10 +1,11 @@
 """Numbers as readers see them; an absent one is a dash."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import pandas as pd
 
-__all__ = ["DASH", "count", "interval", "percent", "present", "rate", "seconds", "short", "signed"]
+__all__ = ["DASH", "count", "interval", "percent", "present", "rate", "seconds", "short", "shorts", "signed"]
 
 DASH = "–"
 
@@ -58,6 +59,20 @@ def short(value: float) -> str:
     ('129063', '0.245')
     """
     return f"{value:.0f}" if abs(value) >= 1000.0 else f"{value:.3g}"
+
+
+def shorts(values: Sequence[float]) -> list[str]:
+    """Values as `short` writes them, with more digits where different ones would look alike.
+
+    >>> shorts([0.5, 2.0]), shorts([200000.1, 200000.4])
+    (['0.5', '2'], ['200000.1', '200000.4'])
+    """
+    found = [short(value) for value in values]
+    for digits in range(4, 10):
+        if len(set(found)) == len(set(values)):
+            return found
+        found = [f"{value:.{digits}g}" for value in values]
+    return [short(value) for value in values]  # they differ by rounding
 
 
 def signed(value: float) -> str:

@@ -15,6 +15,9 @@ __all__ = ["curve_of", "in_words", "no_curve", "sizes_among"]
 
 _RATES = ("deg_s", "percent_s", "rad_s", "m_s", "n_s", "g_s")
 
+_FAR = 2.0
+"""Times the largest size flown, beyond which a fitted curve is a guess and no number is told."""
+
 
 def sizes_among(columns: Iterable[str]) -> list[str]:
     """Columns of the numbers of faults; times are no sizes.
@@ -61,7 +64,9 @@ def in_words(curve: DetectionCurve, largest: float, unit: str = "") -> str:
     if curve.size_90 is None:
         return f"90 % are never found: the curve ends at {100.0 * curve.ceiling:.0f} %"
     of = f" {unit}" if unit not in {"", "-"} else ""
+    if curve.size_90 > _FAR * largest:
+        return f"these flights do not show where 90 % are found: not up to {_FAR:g} times the largest flown, {largest:.3g}{of}"
     beyond = ", beyond the largest flown" if curve.size_90 > largest else ""
-    if curve.size_90_95 is None:
+    if curve.size_90_95 is None or curve.size_90_95 > _FAR * largest:
         return f"90 % found at {curve.size_90:.3g}{of}{beyond}; these flights give it no upper end at 95 % confidence"
     return f"90 % found at {curve.size_90:.3g}{of}{beyond}, at most {curve.size_90_95:.3g}{of} at 95 % confidence"

@@ -2,7 +2,10 @@
 
 from collections.abc import Iterable, Iterator
 
-__all__ = ["shortened"]
+__all__ = ["TITLE", "shortened"]
+
+TITLE = 36
+"""Characters of a name above a small picture."""
 
 
 def shortened(names: Iterable[str], width: int) -> dict[str, str]:

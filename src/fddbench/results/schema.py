@@ -7,7 +7,7 @@ import pyarrow as pa
 from fddbench.interfaces import Consequence
 from fddbench.units import unit_of_name
 
-__all__ = ["CASE", "EVENTS", "FAILED", "OUTCOMES", "SCHEMA_VERSION", "STATUSES", "rows_schema"]
+__all__ = ["CASE", "EVENTS", "FAILED", "OUTCOMES", "SCHEMA_VERSION", "STATUSES", "Explained", "rows_schema"]
 
 SCHEMA_VERSION = "2"
 STATUSES = ("ok", "infeasible", "error", "nonfinite", "memory", "timeout", "crashed")
@@ -15,6 +15,13 @@ FAILED = frozenset(STATUSES[2:])
 """Statuses of rows that should have been scored."""
 OUTCOMES = ("false_alarm", "wrong_site", "right", "late", "missed", "undecided")
 """Of a faulty flight, the first that holds; a healthy one is quiet or false_alarm."""
+
+
+class Explained(dict[str, str]):
+    """What columns say, by name. pandas copies the attributes of a table deeply at every step; these are shared."""
+
+    def __deepcopy__(self, memo: object) -> "Explained":
+        return self
 
 
 def _column(name: str, kind: pa.DataType, about: str, *, nullable: bool = True) -> pa.Field:

@@ -16,7 +16,7 @@ from fddbench.results.filters import Condition, Filter, filter_of, listed, requi
 from fddbench.results.folder import provenance_of
 from fddbench.results.kept import kept_of
 from fddbench.results.manifest import shards
-from fddbench.results.schema import CASE, EVENTS, rows_schema
+from fddbench.results.schema import CASE, EVENTS, Explained, rows_schema
 from fddbench.results.shards import open_table, read_columns
 from fddbench.results.stages import Numbering
 from fddbench.results.whole import holdings
@@ -111,7 +111,7 @@ def read_rows(
         raise without_rows(folder)
     if columns is not None:
         require_columns(columns, known)
-    chosen = filter_of([*listed(filters or []), *(_fair(folder) if fair else [])], known)
+    chosen = filter_of([*listed([] if filters is None else filters), *(_fair(folder) if fair else [])], known)
     return _sorted(folder, "rows", columns, chosen)
 
 
@@ -194,7 +194,8 @@ def _sorted(folder: Path, which: str, columns: Sequence[str] | None = None, only
         in_order = named(in_order)
     chosen = in_order if columns is None else in_order.select(list(columns))
     frame: pd.DataFrame = chosen.to_pandas(types_mapper=pd.ArrowDtype)
-    frame.attrs["columns"] = {field.name: (field.metadata or {}).get(b"about", b"").decode() for field in chosen.schema}
+    about = {field.name: (field.metadata or {}).get(b"about", b"").decode() for field in chosen.schema}
+    frame.attrs["columns"] = Explained(about)
     return frame
 
 

@@ -73,7 +73,7 @@ class Engine:
         if self.name == "threads" and not (compiled and not opaque):
             who = f"{', '.join(opaque)} flies" if opaque else "this campaign flies"
             raise FddbenchError(
-                f"--engine threads: {who} in Python here, where threads only wait for each other; take auto or loky"
+                f"--engine threads: {who} outside of compiled code here, where threads only wait; take auto or loky"
             )
         needed = {"dask": "distributed", "ray": "ray"}.get(self.name)
         if needed is not None and find_spec(needed) is None:

@@ -13,18 +13,23 @@ from fddbench.blocks.primitives import Symbolic
 from fddbench.campaign.meaning import Campaign
 from fddbench.designs.adapted import Adapted
 from fddbench.designs.design import Design
+from fddbench.designs.design_file import Limits
 from fddbench.errors import CampaignError, DesignError, FddbenchError, Mistake
-from fddbench.exported.child import IMPATIENT_S, PATIENCE_S, Child, CodeError, HungError, main_text
+from fddbench.exported.child import Child, CodeError, GoneError
+from fddbench.exported.child_main import main_text
 from fddbench.exported.code import sources
 from fddbench.exported.compiling import Compiler, built, compiler
 from fddbench.exported.flown_c import FlownC
 from fddbench.exported.interface import Interface, interface_of
 from fddbench.exported.load_c import load_in_c
 from fddbench.exported.symbols import library, require_symbols
-from fddbench.interfaces import Bus, Verdict
+from fddbench.interfaces import Bus, Floats, Verdict
 from fddbench.runner.assembly import Assembly
 
 __all__ = ["InC", "as_c", "code_of_design", "in_c_words", "loads_in_c", "require_allowed"]
+
+
+_TRIES = 3
 
 
 @record
@@ -61,7 +66,7 @@ class InC:
         self.sees, self.estimates, self._whose = whose.sees, whose.estimates, whose
         self.program = built({**files, "flown_by_fddbench.c": main_text(interface.name)}, by)
         self._running: tuple[int, FlownC] | None = None
-        self._patience_s = PATIENCE_S
+        self._limits = Limits() if whose.design is None else whose.design.limits
         begun = self._flown()
         self._start = begun.start[:, np.newaxis].copy()
         self.states = Layout(CodeState(words=begun.words))
@@ -84,17 +89,11 @@ class InC:
         Raises
         ------
         CodeError
-            The code crashed or does not answer; it is begun anew for the next step.
+            The code ended three times at this step, each time in a new process, or does not answer.
         """
         if isinstance(x.words, Symbolic):
             raise DesignError(f"it is C, compiled by {self.by}")
-        try:
-            words, given = self._flown().step(np.asarray(x.words), vars(measured))
-        except CodeError as error:
-            self._running = None
-            if isinstance(error, HungError):
-                self._patience_s = IMPATIENT_S
-            raise
+        words, given = self._tried(np.asarray(x.words), vars(measured))
         estimate = given.get("estimate")
         return CodeState(words=words), Verdict(
             given["declared"] if self.isolates else None,
@@ -104,10 +103,26 @@ class InC:
             estimate=estimate if estimate is None or self.estimates == "sites" else estimate[0],
         )
 
+    def _tried(self, words: Floats, measured: Mapping[str, Floats]) -> tuple[Floats, dict[str, Floats]]:
+        """State and outputs; a new process goes on where one has ended, for all its state comes with the step.
+
+        It may have been ended from outside, or have leaked until nothing was left.
+        """
+        for left in reversed(range(_TRIES)):
+            try:
+                return self._flown().step(words, measured)
+            except CodeError as error:
+                self._running = None
+                if not (left and isinstance(error, GoneError)):
+                    raise
+        raise AssertionError  # the last try returns or raises
+
     def _flown(self) -> FlownC:
         """The running code; of this process, for a child belongs to the process that began it."""
         if self._running is None or self._running[0] != os.getpid():
-            self._running = os.getpid(), FlownC(self.interface, Child(self.program, patience_s=self._patience_s))
+            own, memory_mb = self._limits, 0.0 if self.exported else self._limits.memory_mb
+            child = Child(self.program, patience_s=own.step_s, memory_mb=memory_mb)
+            self._running = os.getpid(), FlownC(self.interface, child)
         return self._running[1]
 
 

@@ -113,12 +113,14 @@ def _record(
     kept = [f"{source}:{name}" for name, source in sources.items() if signals is None or name in asked]
     shown = {name: ("n_declared", "alarm", "residual", *own.recorded) for name, own in assembly.detectors.items()}
     kept += [f"{detector}:{name}" for detector, names in shown.items() for name in ("declared", *names)]
-    found = flyer.fly(assembly.shortened(batch, float(last)), kept).recorded
+    flown = flyer.fly(assembly.shortened(batch, float(last)), kept)
+    found = flown.recorded
     return Recording(
         scenario=planned.name,
         cases=assembly.plan.names(batch.cases),
         time_s=np.round(np.arange(last + 1) * sample_s, 9),
         onset_s=np.where(k0 < NEVER, np.round(k0 * sample_s, 9), np.nan) if faulty else None,
+        errors={name: tuple(reasons) for name, reasons in flown.errors.items() if any(reasons)},
         signals=dict(
             _numbered(
                 {name: found[f"{source}:{name}"] for name, source in sources.items() if f"{source}:{name}" in found}

@@ -1,13 +1,12 @@
 """One design on the benchmark of a campaign: what commands about a single detector look at."""
 
 import json
-import re
 from dataclasses import replace
 from pathlib import Path
 
 from fddbench import gallery
 from fddbench.campaign.reading.overrides import ALONE
-from fddbench.errors import FddbenchError
+from fddbench.errors import CampaignError, FddbenchError
 from fddbench.runner.assembling import assemble
 from fddbench.runner.assembly import Assembly
 from fddbench.runner.supervised.trial import read_safely
@@ -28,15 +27,15 @@ def _one_detector(design: str, campaign: Path | None) -> Assembly:
     """Assembly of a campaign with one detector; without a campaign the first shipped one whose benchmark feeds it."""
     shipped = [Path("smoke"), *(Path(path.stem) for path in sorted(gallery.folder("campaigns").glob("*.yaml")))]
     first: FddbenchError | None = None
+    alone = f"detectors=[{json.dumps(design)}]"
     for path in [campaign] if campaign else shipped:
         try:
-            return assemble(read_safely(path, [f"detectors=[{_quoted(design)}]", *ALONE]))
+            return assemble(read_safely(path, [alone, *ALONE]))
+        except CampaignError as error:
+            # nobody has written this --set
+            mine = (replace(each, where="") if each.where == f"--set {alone}" else each for each in error.mistakes)
+            first = first or CampaignError(tuple(mine))
         except FddbenchError as error:
             first = first or error
     assert first is not None
     raise first
-
-
-def _quoted(name: str) -> str:
-    """A name as one value of YAML, whatever it holds."""
-    return name if re.fullmatch(r"[A-Za-z0-9_][\w./-]*", name) else json.dumps(name)

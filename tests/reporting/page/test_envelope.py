@@ -20,6 +20,16 @@ def test_cells_hold_every_decided_faulty_flight_once(make_rows):
     assert failed_map(columns, 0, "p_v_cas_kt", "p_delta_c_y_percent") is None
 
 
+def test_what_is_drawn_is_cut_by_width_and_ends_never_look_alike(make_rows):
+    """Six drawn masses were six rows side by side, and two of them were called 266k."""
+    rows = make_rows(("jam_a",), ("d",), 6)
+    rows["p_v_cas_kt"] = 248.0 + 0.1 * rows["run"].astype(float)
+    text = failed_map(Columns(rows), 0, *PAIR).svg()
+    ticks = re.findall(r">(24[\d.]+)<", text)
+    assert ticks == ["248", "248.1", "248.2", "248.3", "248.4", "248.5"]  # edges of five parts, not six values
+    assert len(set(ticks)) == len(ticks)
+
+
 def test_pairs_are_what_the_benchmark_says_and_what_is_swept(make_rows):
     columns = Columns(make_rows(("jam_a",), ("d",), 5))
     assert envelope_pairs(columns, (*AXES, ("no_such", "mass_kg")), ()) == [PAIR, ("p_x_cg_ratio", "p_mass_kg")]

@@ -3,7 +3,7 @@
 from types import SimpleNamespace
 
 from fddbench.reporting.beside import Told
-from fddbench.reporting.page.answer import Loudest
+from fddbench.reporting.page.alarms_said import Loudest
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.page.led_by import of_envelope, of_points, of_print, of_quiet
 
@@ -25,10 +25,46 @@ def points(told, outcome):
 def test_the_worst_error_stands_beside_none(told):
     lost = points(told, lambda d, p: "missed" if d == "one" and p == 1 else "right")
     said = text(of_points("What does it cost that the mass is off?", lost, NAMES))
-    assert said == ("Most is lost with mass error [%] 10: right goes from 100 to 0 % with one; nothing costs other. ")
+    assert said == (
+        "Most is lost with mass error [%] 10: right goes from 100 to 0 % with one; other loses nothing, right in 100 % without "
+        "errors. "
+    )
     none = points(told, lambda d, p: "right")
     assert text(of_points("What?", none, NAMES)) == "None of the errors costs any detector a fault. "
     assert of_points("What?", none, NAMES[:1]) == []
+
+
+def test_what_a_grid_varies_besides_is_no_error(told):
+    """The first point stood for no error, wherever it lay in the grid: gusts were told as errors, or hid them."""
+    rows = told(("jam_a",), ("one",), 36, lambda s, d, run: "missed" if run % 2 else "right")
+    number = rows["run"].to_numpy(dtype=int)
+    entry = number // 2 % 3
+    rows["point"], rows["run"], rows["p_gust_scale_ratio"] = number % 6, number // 6, (number % 2).astype(float)
+    rows[NAMES[0]], rows[NAMES[1]] = (entry == 1) * 10.0, (entry == 2) * 5.0
+    assert text(of_points("What?", Columns(rows), NAMES)) == "None of the errors costs any detector a fault. "
+
+
+def test_errors_of_both_signs_are_beside_the_entry_without_any(told):
+    rows = told(("jam_a",), ("one",), 36, lambda s, d, run: "missed" if run % 3 == 0 else "right")
+    number = rows["run"].to_numpy(dtype=int)
+    rows["point"], rows["run"] = number % 3, number // 3
+    for name in NAMES:
+        rows[name] = (number % 3 - 1) * 5.0
+    assert text(of_points("What?", Columns(rows), NAMES)).startswith(
+        "Most is lost with mass error [%] -5 and delta c y [%] -5: right goes from 100 to 0 % with one"
+    )
+    rows[NAMES[0]] += 2.5  # no entry is without an error
+    rows[NAMES[1]] += 2.5
+    assert of_points("What?", Columns(rows), NAMES) == []
+
+
+def test_one_run_is_said(told):
+    rows = told(("jam_a", "jam_b", "jam_c"), ("one",), 3, lambda *_: "right")
+    number = rows["run"].to_numpy(dtype=int)
+    rows["point"], rows["run"], rows[NAMES[0]], rows[NAMES[1]] = number, 0, (number == 1) * 10.0, (number == 2) * 5.0
+    assert text(of_points("What?", Columns(rows), NAMES)) == (
+        "None of the errors costs any detector a fault in these flights. "
+    )
 
 
 def test_the_most_wrong_estimate_where_it_is_asked_for(told):
@@ -50,6 +86,7 @@ def test_what_looks_like_a_fault_is_said():
     )
     assert text(of_quiet("Does a climb look like a fault?", None)) == "No healthy flight was taken for a fault. "
     assert of_quiet("Which is best?", loud) == []
+    assert of_quiet("Does a climb look like a fault?", None, healthy=False) == []
 
 
 def test_where_over_the_envelope_is_said_in_the_cells_of_the_map(told):
@@ -62,7 +99,7 @@ def test_where_over_the_envelope_is_said_in_the_cells_of_the_map(told):
     said = text(of_envelope("Where over the envelope is it right?", columns, axes, (), 0))
     assert said == (
         "Over the envelope one fails most at v cas [kt] 260, altitude [ft] 15000: 30 of 60 faulty flights; least at "
-        "v cas [kt] 280, altitude [ft] 15000: 0 of 60. "
+        "v cas [kt] 280, altitude [ft] 15000: 0 of 60, as often in 2 more cells. "
     )
     assert of_envelope("Which is best, and where over the envelope?", columns, axes, (), 0) == []
     assert of_envelope("Where over the envelope is it right?", columns, axes, (), None) == []
@@ -75,7 +112,7 @@ def test_print_is_counted_for_the_table_that_is_asked_for():
     compared = [SimpleNamespace(table=SimpleNamespace(table=8), told=told)]
     said = text(of_print("Do the gains give the published Table 8? Yes.", compared, "one"))
     assert said == (
-        "Beside Table 8: one is right or quiet in all flights of 2 of 3 scenarios in print; its median time is the printed "
-        "one to a sample in 1 of 2. "
+        "Beside Table 8: one is right or quiet in all decided flights of 2 of 3 scenarios in print; its median time is the "
+        "printed one to a sample in 1 of 2. "
     )
     assert of_print("Do the gains hold? Table 8 is beside.", compared, "one") == []

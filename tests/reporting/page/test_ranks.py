@@ -30,3 +30,8 @@ def test_the_rule_of_three_counts_runs_and_agrees_with_the_interval_beside_it(fl
 def test_one_run_leaves_everything_open():
     assert silence([quiet(9, 1)]) == "none in 9 flights of one run leaves everything open"
     assert silence([]) == ""
+
+
+def test_what_silence_leaves_open_is_true_of_few_runs():
+    """ "About 3.7 in as many" was told of two runs."""
+    assert silence([quiet(2, 2)]) == "none in 2 flights leaves up to 84.2 % (about 1.7 in as many)"

@@ -3,7 +3,8 @@
 1. Nothing flown, no fault flown, or nothing decided: it says so, and what is known of false alarms.
 2. All detectors right in all decided flights, or none ever right: it says so, for a rank would be chance.
 3. One detector: its share. Several: the best one, unless the second is as good on the same flights: an exact paired test by
-   run with p of 0.05 or more, then "not decided between"; equal counts are called equal.
+   run with p of 0.05 or more, then "not decided between"; equal counts are called equal. Of one run, which no test can tell
+   anything of, the shares of both.
 4. What the campaign varies: how the right share goes from the first to the last value, for who loses most and who loses least.
 5. Where the best one fails most; in how many flights a healthy site is declared; false alarms, and in which healthy scenario
    there are most of them. One flight has no interval, and it says so.
@@ -13,16 +14,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from fddbench.metrics.paired import PairedShares
-from fddbench.reporting.formats import count, interval, percent, rate
+from fddbench.reporting.formats import count, interval, percent
+from fddbench.reporting.page.alarms_said import Loudest, Said, false_alarms, of_healthy
 from fddbench.reporting.page.ranking import Rank
 
-__all__ = ["Course", "Loudest", "Said", "answer"]
+__all__ = ["Course", "answer"]
 
-_SURE = 0.05
-"""Of the paired test, below which the best is called best."""
-
-Said = list[tuple[str, bool]]
-"""Pieces of text, and whether they are names or numbers to set in bold."""
+_MOST_NAMED, _SURE = 2, 0.05
+"""How many detectors are named; of the paired test, below which the best is called best."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,16 +42,6 @@ class Course:
     first: str
     last: str
     shares: Sequence[tuple[str, float, float]]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Loudest:
-    """Healthy scenario with most false alarms of a detector."""
-
-    detector: str
-    scenario: str
-    alarms: int
-    flights: int
 
 
 def answer(
@@ -78,24 +67,31 @@ def answer(
     along_first : bool
         Whether what the campaign varies is what it asks for.
     """
-    if not ranks:
-        return [("Not decided: no flight was flown.", False)]
+    if not any(line.faulty or line.distinct_flights for line in ranks):
+        return (
+            [("Not decided: no flight has a score. ", False), *_unscored(ranks)]
+            if any(line.lost for line in ranks)
+            else [("Not decided: no flight was flown.", False)]
+        )
     if not any(line.faulty for line in ranks):
-        return _healthy(ranks, loudest)
+        return of_healthy(ranks, loudest)
     if not any(line.decided for line in ranks):
         n = max(line.faulty for line in ranks)
         return [
             ("Not decided", True),
             (f": all {count(n)} faulty flights end before the limit of their fault without a declaration. ", False),
-            *_healthy(ranks, loudest),
+            *of_healthy(ranks, loudest),
         ]
     decided = [line for line in ranks if line.decided]
     best = decided[0]
-    said, along = _verdict(decided, second), [piece for course in courses for piece in _along(course)]
+    said, along = (
+        _verdict(decided, second) + _in_sample(decided) + _unscored(ranks),
+        [piece for course in courses for piece in _along(course)],
+    )
     said = along + said if along_first else said + along
     if len(decided) == 1 or any(line.right.hits < line.decided for line in decided):
         said += _weakness(best, "It" if len(decided) == 1 else best.detector)
-    said += _false_alarms(best, loudest)
+    said += false_alarms(best, loudest)
     return said
 
 
@@ -107,11 +103,30 @@ def _verdict(decided: Sequence[Rank], second: PairedShares | None) -> Said:
         flights = "the one decided faulty flight" if best.decided == 1 else f"all {n}"
         return [(f"{who} are right in time", True), (f" in {flights}{_bound(best)}. ", False)]
     if all(line.right.hits == 0 for line in decided):
-        return [(f"{'The detector is' if len(decided) == 1 else who + ' are'} never right", True),
+        none = {1: "The detector is never", 2: "Neither detector is ever"}
+        return [(f"{none.get(len(decided), f'None of {len(decided)} detectors is ever')} right", True),
                 (f" in time in {n}. ", False)]  # fmt: skip
     if len(decided) == 1:
         return [(best.detector, True), (": ", False), *_share(best)]
     return _best(decided, second)
+
+
+def _in_sample(decided: Sequence[Rank]) -> Said:
+    """Whose numbers flatter."""
+    names = [line.detector for line in decided if line.in_sample]
+    who = ", ".join(names) if len(names) <= _MOST_NAMED else f"{len(names)} detectors"
+    return [(f"In sample, tuned on these very flights: {who}. ", False)] if names else []
+
+
+def _unscored(ranks: Sequence[Rank]) -> Said:
+    """Who did not come to the end of some flights."""
+    lost = sorted((line for line in ranks if line.lost), key=lambda line: -line.lost)
+    said: Said = []
+    for line in lost[:_MOST_NAMED]:
+        flights = f"{count(line.lost)} flight{'' if line.lost == 1 else 's'}"
+        said += [(line.detector, True), (f" has no score in {flights}: it did not come to their end. ", False)]
+    more = len(lost) - _MOST_NAMED
+    return [*said, (f"Nor do {more} more in some. ", False)] if more > 0 else said
 
 
 def _best(decided: Sequence[Rank], second: PairedShares | None) -> Said:
@@ -125,8 +140,12 @@ def _best(decided: Sequence[Rank], second: PairedShares | None) -> Said:
         as_often = f"{' and '.join(filter(None, [', '.join(also[:-1]), also[-1]]))} as often, " if also else ""
         return [("Not decided: ", False), (best.detector, True), (" and ", False), (other.detector, True),
                 (f" are right in the same flights, {as_often}", False), *_share(best)]  # fmt: skip
-    if second.p_value is None or second.p_value >= _SURE or second.runs < 2:
-        p = f"p = {second.p_value:.2g}" if second.p_value is not None and second.runs > 1 else "one run is no test"
+    if second.runs < 2:
+        here = f" in {percent(_percent(other))} %; of other flights one run proves nothing. "
+        return [("Of these flights ", False), (best.detector, True), (" is right in time in ", False),
+                (f"{percent(_percent(best))} %", True), (", ", False), (other.detector, True), (here, False)]  # fmt: skip
+    if second.p_value is None or second.p_value >= _SURE:
+        p = "no test" if second.p_value is None else f"p = {second.p_value:.2g}"
         share = f", {percent(_percent(best))} and {percent(_percent(other))} % of faulty flights right in time ({p}). "
         return [
             ("Not decided between ", False),
@@ -161,15 +180,19 @@ def _along(course: Course) -> Said:
     if all(first == last for _, first, last in losses):
         return []
     most, least = losses[0], losses[-1]
-    text: Said = [(f"From {course.name} {course.first} to {course.last} right goes from ", False), *_from_to(most)]
+    text: Said = [(f"From {course.name} {course.first} to {course.last} right ", False), *_from_to(most)]
     if least[0] != most[0]:
-        text += [(", and from ", False), *_from_to(least)]
+        text += [(", and ", False), *_from_to(least)]
     return [*text, (". ", False)]
 
 
 def _from_to(each: tuple[str, float, float]) -> Said:
+    """``goes from 100 to 40 % with x``, ``stays at 100 % with x``."""
     name, first, last = each
-    return [(f"{percent(first)} to {percent(last)} %", True), (f" with {name}", False)]
+    goes, shares = (
+        ("stays at", percent(last)) if first == last else ("goes from", f"{percent(first)} to {percent(last)}")
+    )
+    return [(f"{goes} ", False), (f"{shares} %", True), (f" with {name}", False)]
 
 
 def _weakness(best: Rank, who: str) -> Said:
@@ -179,63 +202,13 @@ def _weakness(best: Rank, who: str) -> Said:
         said.append((" fails in no flight. ", False))
     else:
         worst = best.weakest
+        also = f", as often in {worst.also} more scenario{'' if worst.also == 1 else 's'}" if worst.also else ""
         said += [(" fails most in ", False), (worst.scenario, True),
-                 (f": {count(worst.failed)} of {count(worst.decided)} flights. ", False)]  # fmt: skip
-    wrong = best.outcomes.get("wrong_site", 0)
-    flights = f"{count(wrong)} flight{'' if wrong == 1 else 's'}"
-    said.append(
-        (f"In {flights} it declares a healthy site. " if wrong else "It never declares a healthy site. ", False)
-    )
+                 (f": {count(worst.failed)} of {count(worst.decided)} flights{also}. ", False)]  # fmt: skip
+    if best.names_sites:
+        wrong = best.outcomes.get("wrong_site", 0)
+        flights = f"In {count(wrong)} flight{'' if wrong == 1 else 's'} it declares"
+        said.append((f"{flights if wrong else 'It never declares'} a healthy site. ", False))
     if best.undecided:
         said.append((f"{count(best.undecided)} more are undecided. ", False))
     return said
-
-
-def _false_alarms(best: Rank, loudest: Loudest | None) -> Said:
-    if not best.distinct_flights:
-        return []
-    high = f" (up to {percent(best.alarms_high_percent)} %)" if best.alarms_high_percent is not None else ""
-    number = count(best.alarms) if best.alarms else "none"
-    said: Said = [(f"False alarms: {number} in {_distinct(best)}{high}", False)]
-    if loudest is not None and loudest.alarms:
-        said += [("; most of all detectors in ", False), (loudest.scenario, True),
-                 (f": {count(loudest.alarms)} of {count(loudest.flights)} with {loudest.detector}", False)]  # fmt: skip
-    return [*said, (".", False)]
-
-
-def _distinct(line: Rank) -> str:
-    """``540 distinct flights of 25 runs``; of as many runs where it says nothing of them."""
-    runs = f" of {count(line.runs)} run{'' if line.runs == 1 else 's'}" if line.runs != line.distinct_flights else ""
-    return f"{count(line.distinct_flights)} distinct flight{'' if line.distinct_flights == 1 else 's'}{runs}"
-
-
-def _healthy(ranks: Sequence[Rank], loudest: Loudest | None) -> Said:
-    """Nothing but healthy flights tells anything."""
-    watched = [line for line in ranks if line.distinct_flights]
-    if not watched:
-        return [("No healthy stretch was flown either.", False)]
-    most_flights = max(watched, key=lambda line: line.distinct_flights)
-    if not any(line.alarms for line in watched):
-        high = max((line.alarms_high_percent or 0.0) for line in watched)
-        upper = f" (up to {percent(high)} % of flights at 95 %)" if high else ""
-        return [("No false alarm", True), (f" of any detector in {_distinct(most_flights)}{upper}.", False)]
-    ordered = sorted(watched, key=lambda line: line.alarms / line.distinct_flights)
-    least, most = ordered[0], ordered[-1]
-    said: Said = [("False alarms: ", False), *_count_of(most)]
-    if len(ordered) > 1:
-        said += [(", fewest ", False), *_count_of(least)]
-    if loudest is not None and loudest.alarms:
-        said += [
-            ("; most in ", False),
-            (loudest.scenario, True),
-            (f": {count(loudest.alarms)} of {count(loudest.flights)}", False),
-        ]
-    return [*said, (".", False)]
-
-
-def _count_of(line: Rank) -> Said:
-    share = 100.0 * line.alarms / line.distinct_flights
-    return [
-        (line.detector, True),
-        (f" in {count(line.alarms)} of {count(line.distinct_flights)} ({rate(share)} %)", False),
-    ]

@@ -14,7 +14,7 @@ from fddbench.interfaces import Consequence
 from fddbench.reporting.consequences import Worst, worst_scenarios
 from fddbench.reporting.formats import short
 from fddbench.reporting.labels import label
-from fddbench.reporting.page.answer import Said
+from fddbench.reporting.page.alarms_said import Said
 
 __all__ = ["asked", "asks_of_what_varies", "of_consequences", "of_figures"]
 

@@ -8,6 +8,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from fddbench.interfaces import Floats
+from fddbench.reporting.drawn import is_drawn
 from fddbench.reporting.labels import of_a_fault
 
 __all__ = ["FAILED", "NEEDS", "Columns"]
@@ -101,6 +102,11 @@ class Columns:
         return found
 
     @property
+    def lost(self) -> npt.NDArray[np.bool_]:
+        """Rows that should have been scored."""
+        return np.asarray(~self.ok & (self.texts("status") != "infeasible"), dtype=bool)
+
+    @property
     def failed(self) -> npt.NDArray[np.bool_]:
         """Rows in which something went wrong."""
         if "failed" not in self._known:
@@ -117,6 +123,10 @@ class Columns:
     def of(self, detector: int) -> Index:
         """Places of the rows of a detector."""
         return np.flatnonzero(self.detector == detector)
+
+    def drawn(self, name: str, places: Index) -> bool:
+        """Whether the values of a column of few values were drawn, not asked for."""
+        return is_drawn(self.numbers(name)[places], self.numbers("run")[places])
 
     def varied(self, places: Index, prefixes: Sequence[str] = ("p_", "f")) -> list[str]:
         """Parameters and sizes of faults that differ among some rows, those of faults first."""

@@ -8,7 +8,7 @@ from typing import Any
 import pandas as pd
 
 from fddbench.reporting.comparison import comparison_cells
-from fddbench.reporting.page.answer import Said
+from fddbench.reporting.page.alarms_said import Said
 from fddbench.reporting.page.writing import rendered
 from fddbench.reporting.tables import Cell
 

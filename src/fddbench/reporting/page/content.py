@@ -16,13 +16,14 @@ from fddbench.reporting.consequences import consequence_heads, consequence_lines
 from fddbench.reporting.guarantees import guarantee_lines
 from fddbench.reporting.labels import OUTCOMES
 from fddbench.reporting.loads import load_heads, load_lines, measured_by
-from fddbench.reporting.page.answer import Said, answer
+from fddbench.reporting.page.alarms_said import Said
+from fddbench.reporting.page.answer import answer
 from fddbench.reporting.page.asked import asked, asks_of_what_varies
 from fddbench.reporting.page.cells import Cell, cells
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.page.convergence import convergence_scene
 from fddbench.reporting.page.counted import COUNTED_HEADS, counted_lines
-from fddbench.reporting.page.courses import courses, loudest
+from fddbench.reporting.page.courses import courses, found_at, loudest, worst_value
 from fddbench.reporting.page.data import ReportData
 from fddbench.reporting.page.envelope import envelope_maps, envelope_pairs, infeasible_map
 from fddbench.reporting.page.led_by import of_envelope, of_points, of_print, of_quiet
@@ -117,14 +118,17 @@ def _answer(report: ReportData, ranks: Sequence[Rank], columns: Columns, compare
     first = asked(
         about, report.rows, report.consequences, drawn, commander=str(report.campaign.get("reconfigure") or "")
     )
-    first += of_quiet(about, loud)
+    first += of_quiet(about, loud, healthy=bool((columns.ok & ~columns.faulty).any()))
     first += of_points(about, columns, [f"p_{name}" for name in varied if f"p_{name}" in report.rows])
     best = ranks[0].number if ranks and ranks[0].decided else None
     first += of_envelope(about, columns, report.envelope_axes, report.swept, best)
     first += of_print(about, compared, ranks[0].detector if ranks else "")
+    first += worst_value(about, columns, report.swept, ranks)
+    where = found_at(about, columns, report.swept, ranks)
     second = second_beside_best(columns, ranks)
     along = report.operating is None and asks_of_what_varies(about)
-    return first + answer(ranks, second, courses=courses(columns, report.swept), loudest=loud, along_first=along)
+    course = [] if where else courses(columns, report.swept)
+    return first + where + answer(ranks, second, courses=course, loudest=loud, along_first=along)
 
 
 _MOST_MAPS = 6

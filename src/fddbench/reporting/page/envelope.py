@@ -9,10 +9,11 @@ import numpy as np
 import numpy.typing as npt
 
 from fddbench.interfaces import Floats
-from fddbench.reporting.formats import count, percent, short
+from fddbench.reporting.formats import count, percent, shorts
 from fddbench.reporting.labels import label
+from fddbench.reporting.names import TITLE, shortened
 from fddbench.reporting.page.columns import Columns
-from fddbench.reporting.svg.axes import ticks_text
+from fddbench.reporting.svg.axes import ticks_texts
 from fddbench.reporting.svg.heat import HeatCell, Side, heat_scene
 from fddbench.reporting.svg.scene import Scene
 
@@ -66,35 +67,40 @@ def failed_map(columns: Columns, detector: int, x: str, y: str) -> Scene | None:
             cells.append(HeatCell(**ends, dark=None, text="inf."))
     name = columns.detectors[detector]
     return heat_scene(
-        cells, x=cuts[0].side, y=cuts[1].side, title=name,
+        cells, x=cuts[0].side, y=cuts[1].side, title=shortened(columns.detectors, TITLE)[name],
         label=f"Failed share [%] of {name} over {label(x)} and {label(y)}",
     )  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True)
 class Corner:
-    """A cell of the map in words, ``v tas [m/s] 160 to 182, altitude [m] 2000 to 3700``, and its flights."""
+    """A cell of the map in words, ``v tas [m/s] 160 to 182, altitude [m] 2000 to 3700``, its flights, and cells alike."""
 
     where: str
     failed: int
     decided: int
+    alike: int
 
 
 def worst_and_best(columns: Columns, detector: int, x: str, y: str) -> tuple[Corner, Corner] | None:
-    """Cells of `failed_map` with the largest and the smallest failed share; None: not two of them have `FEW` flights."""
+    """Cells of `failed_map` with the largest and the smallest failed share; None: no two with `FEW` flights differ in it."""
     places = columns.of(detector)
     cuts = _both(columns, places, x, y)
     if cuts is None:
         return None
     n, k = _decided(columns, places, cuts)
     known = [(i, j) for i, j, _ in _grid(cuts) if n[i, j] >= FEW]
-    if len(known) < 2:
+    shares = [float(k[at] / n[at]) for at in known]
+    if len(set(shares)) < 2:
         return None
-    ordered = sorted(known, key=lambda at: k[at] / n[at])
     worst, best = (
-        Corner(where=f"{cuts[0].words(i)}, {cuts[1].words(j)}", failed=int(k[i, j]), decided=int(n[i, j]))
-        for i, j in (ordered[-1], ordered[0])
-    )
+        Corner(
+            where=f"{cuts[0].words(i)}, {cuts[1].words(j)}", failed=int(k[i, j]), decided=int(n[i, j]),
+            alike=shares.count(share),
+        )
+        for share in (max(shares), min(shares))
+        for i, j in [known[shares.index(share)]]
+    )  # fmt: skip
     return worst, best
 
 
@@ -119,7 +125,7 @@ def infeasible_map(columns: Columns, x: str, y: str) -> Scene | None:
 
 @dataclass(frozen=True, eq=False)
 class _Cut:
-    """An axis cut into cells: few values a cell each, side by side however far apart; of many parts of equal width."""
+    """An axis cut into cells: few values that were asked for a cell each, side by side; of others parts of equal width."""
 
     name: str
     edges: Floats
@@ -134,14 +140,14 @@ class _Cut:
     def words(self, i: int) -> str:
         """Cell `i`: its name and its value, or its ends."""
         ends = self.edges[i : i + 2] if self.values is None else self.values[i : i + 1]
-        return f"{label(self.name)} {' to '.join(map(short, ends.tolist()))}"
+        return f"{label(self.name)} {' to '.join(shorts(ends.tolist()))}"
 
     @property
     def side(self) -> Side:
         """The axis of the picture."""
         marked = self.edges if self.values is None else self.values
         at = self.edges if self.values is None else np.arange(len(self.values), dtype=np.float64)
-        ticks = [(a, ticks_text(v)) for a, v in zip(at.tolist(), marked.tolist(), strict=True)]
+        ticks = list(zip(at.tolist(), ticks_texts(marked.tolist()), strict=True))
         return Side(name=label(self.name), low=float(self.edges[0]), high=float(self.edges[-1]), ticks=ticks)
 
 
@@ -150,7 +156,7 @@ def _cut(columns: Columns, places: Index, name: str) -> _Cut | None:
     own = np.unique(values[~np.isnan(values)])
     if len(own) < 2:
         return None
-    if len(own) <= _MOST_VALUES:
+    if len(own) <= _MOST_VALUES and not columns.drawn(name, places):
         return _Cut(name, np.arange(len(own) + 1, dtype=np.float64) - 0.5, own.astype(np.float64))
     return _Cut(name, np.linspace(own[0], own[-1], _PARTS + 1).astype(np.float64), None)
 

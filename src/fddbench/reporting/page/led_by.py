@@ -1,7 +1,8 @@
 """Sentences that come first where a campaign asks for more: errors one at a time, quiet flights, the envelope, print."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,19 +11,19 @@ from fddbench.interfaces import Floats
 from fddbench.reporting.beside import Beside
 from fddbench.reporting.formats import count, percent, short
 from fddbench.reporting.labels import label
-from fddbench.reporting.page.answer import Loudest, Said
+from fddbench.reporting.page.alarms_said import Loudest, Said
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.page.envelope import envelope_pairs, worst_and_best
 
 __all__ = ["of_envelope", "of_points", "of_print", "of_quiet"]
 
 _LEAST_NAMES, _LEAST_POINTS = 2, 3
-_MOST_NAMED, _MOST_SCENARIOS, _PIECES = 2, 2, 5
+_MOST_NAMED, _MOST_SCENARIOS, _PIECES, _LEAST_RUNS = 2, 2, 5, 2
 
 
-def of_quiet(about: str, loudest: Loudest | None) -> Said:
-    """``Yes with lpv_filter_approx: 72 of 200 healthy flights of descent have an alarm.``, where that is asked."""
-    if "look like a fault?" not in about:
+def of_quiet(about: str, loudest: Loudest | None, *, healthy: bool = True) -> Said:
+    """``Yes with lpv_filter_approx: 72 of 200 healthy flights of descent have an alarm.``, where healthy ones were flown."""
+    if "look like a fault?" not in about or not healthy:
         return []
     if loudest is None or not loudest.alarms:
         return [("No healthy flight was taken for a fault. ", True)]
@@ -54,27 +55,35 @@ def of_envelope(
     if found is None or best is None or not found[0].failed:
         return []
     most, least = (f"{count(each.failed)} of {count(each.decided)}" for each in found)
+    also, too = (
+        f", as often in {each.alike - 1} more cell{'s' * (each.alike > 2)}" if each.alike > 1 else "" for each in found
+    )
     return [("Over the envelope ", False), (columns.detectors[best], True), (" fails most at ", False), (found[0].where, True),
-            (f": {most} faulty flights; least at {found[1].where}: {least}. ", False)]  # fmt: skip
+            (f": {most} faulty flights{also}; least at {found[1].where}: {least}{too}. ", False)]  # fmt: skip
 
 
 def of_print(about: str, compared: Sequence[Beside], best: str) -> Said:
     """How many printed scenarios come out as printed, where a campaign asks for a table in print."""
     numbers = set(re.findall(r"\bTables? (\d+)", about.partition("?")[0] if "?" in about else ""))
     found = next((each for each in compared if str(each.table.table) in numbers), None)
-    lines = [line for line in found.told if line.detector == best] if found is not None else []
+    lines = (
+        [line for line in found.told if line.detector == best and line.sound is not None] if found is not None else []
+    )
     if found is None or not lines:
         return []
-    good = sum(line.sound for line in lines)
+    good = sum(bool(line.sound) for line in lines)
     away = [line.away for line in lines if line.away is not None]
     near = sum(abs(each) <= 1 for each in away)
     times = f"; its median time is the printed one to a sample in {near} of {len(away)}" if away else ""
-    said = f" is right or quiet in all flights of {good} of {len(lines)} scenarios in print{times}. "
+    said = f" is right or quiet in all decided flights of {good} of {len(lines)} scenarios in print{times}. "
     return [(f"Beside Table {found.table.table}: ", False), (best, True), (said, False)]
 
 
 def of_points(about: str, columns: Columns, sequence: Sequence[str]) -> Said:
-    """What the worst point of a sequence of errors costs beside its first point, of the estimate where that is asked for.
+    """What the worst entry of a sequence of errors costs beside that without, of the estimate where that is asked for.
+
+    Without errors is the entry in which each column is 0, or else at its commonest value; there may be none. What a grid varies
+    besides is flown by all entries alike.
 
     Parameters
     ----------
@@ -85,67 +94,107 @@ def of_points(about: str, columns: Columns, sequence: Sequence[str]) -> Said:
     sequence : sequence of str
         Columns of what the sequence varies.
     """
-    if len(sequence) < _LEAST_NAMES:
+    if len(sequence) < _LEAST_NAMES or not len(columns):
         return []
-    names = {name: columns.numbers(name) for name in sequence}
-    point = columns.whole("point", np.arange(len(columns)))
-    if len(np.unique(point)) < _LEAST_POINTS:
+    entries = _Entries.of(columns, sequence)
+    if entries is None:
         return []
     of_estimate = re.search(r"\bestimates?\b", about.partition("?")[0]) is not None
-    return _estimate(columns, point, names) if of_estimate else _right(columns, point, names)
+    return _estimate(columns, entries) if of_estimate else _right(columns, entries)
 
 
-def _estimate(columns: Columns, point: "np.ndarray[Any, Any]", names: Mapping[str, Floats]) -> Said:
-    """Of each scenario by itself, for sites differ in their units: the largest median of the bias at a point."""
+@dataclass(frozen=True, eq=False)
+class _Entries:
+    """Entries of a sequence: of each row which one, their values (n_entries, n_names), and which has no error."""
+
+    place: "np.ndarray[Any, Any]"
+    values: Floats
+    names: Sequence[str]
+    none: int
+
+    @classmethod
+    def of(cls, columns: Columns, names: Sequence[str]) -> "_Entries | None":
+        """Of all rows; None with fewer than three entries, or without one that has no error."""
+        rows = np.column_stack([columns.numbers(name) for name in names])
+        values, place = np.unique(rows, axis=0, return_inverse=True)
+        if len(values) < _LEAST_POINTS or np.isnan(values).any():
+            return None
+        right = np.array([_without_error(column) for column in values.T])
+        none = np.flatnonzero((values == right).all(axis=1))
+        return cls(place.reshape(-1), values, names, int(none[0])) if len(none) else None
+
+    def called(self, at: int) -> str:
+        """What an entry has otherwise than that without errors, in words; of many errors their number."""
+        here, none = self.values[at], self.values[self.none]
+        own = [
+            (name, float(v)) for name, v, right in zip(self.names, here, none, strict=True) if not np.isclose(v, right)
+        ]
+        if len(own) > _MOST_NAMED:
+            return f"{len(own)} errors at once"
+        return " and ".join(f"{label(name)} {short(value)}" for name, value in own)
+
+
+def _without_error(values: Floats) -> float:
+    """Value of an entry without an error: 0 where there is one, else the commonest; not-a-number where none is."""
+    own, n = np.unique(values, return_counts=True)
+    if (own == 0.0).any():
+        return 0.0
+    return float(own[np.argmax(n)]) if np.sum(n == n.max()) == 1 else float("nan")
+
+
+def _estimate(columns: Columns, entries: _Entries) -> Said:
+    """Of each scenario by itself, for sites differ in their units: the largest median of the bias of an entry."""
     said: Said = []
     for s, scenario in enumerate(columns.scenarios):
-        medians = {(d, p): m for d in range(len(columns.detectors)) for p, m in _biases(columns, s, d, point).items()}
-        if len(said) >= _MOST_SCENARIOS * _PIECES or not medians:
+        medians = {
+            (d, p): m for d in range(len(columns.detectors)) for p, m in _biases(columns, s, d, entries.place).items()
+        }
+        wrong = {at: m for at, m in medians.items() if at[1] != entries.none}
+        if len(said) >= _MOST_SCENARIOS * _PIECES or not wrong:
             continue
-        d, at = max(medians, key=lambda each: abs(medians[each]))
-        none = medians.get((d, int(point.min())))
+        d, at = max(wrong, key=lambda each: abs(wrong[each]))
+        none = medians.get((d, entries.none))
         beside = "" if none is None else f", {short(none)} where none is off"
-        worst = f": bias {short(medians[d, at])} of {columns.detectors[d]}{beside}"
+        worst = f": bias {short(wrong[d, at])} of {columns.detectors[d]}{beside}"
         said += [("; " if said else "Estimates are most wrong in ", False), (scenario, True), (" with ", False),
-                 (_differing(point, names, at), True), (worst, False)]  # fmt: skip
+                 (entries.called(at), True), (worst, False)]  # fmt: skip
     return [*said, (" (medians of flights, in the unit of each site). ", False)] if said else []
 
 
-def _biases(columns: Columns, s: int, d: int, point: "np.ndarray[Any, Any]") -> dict[int, float]:
-    """Median of the bias of the estimate at each point, of a scenario and detector; without points that have none."""
+def _biases(columns: Columns, s: int, d: int, place: "np.ndarray[Any, Any]") -> dict[int, float]:
+    """Median of the bias of the estimate with each entry, of a scenario and detector; without entries that have none."""
     places = columns.cell(s, d)
     bias = columns.numbers("estimate_bias")[places]
     known = places[columns.ok[places] & columns.faulty[places] & ~np.isnan(bias)]
     return {
-        int(p): float(np.median(columns.numbers("estimate_bias")[known[point[known] == p]]))
-        for p in np.unique(point[known])
+        int(p): float(np.median(columns.numbers("estimate_bias")[known[place[known] == p]]))
+        for p in np.unique(place[known])
     }
 
 
-def _right(columns: Columns, point: "np.ndarray[Any, Any]", names: Mapping[str, Floats]) -> Said:
+def _right(columns: Columns, entries: _Entries) -> Said:
+    """Who loses most to errors, and who loses nothing: of several the one that is right most often."""
     right, sure = columns.texts("outcome") == "right", columns.decided & columns.faulty
     worst: list[tuple[float, str, int, float, float]] = []
     for d, name in enumerate(columns.detectors):
         own = sure & (columns.detector == d)
-        shares = {int(p): 100.0 * float(right[own & (point == p)].mean()) for p in np.unique(point[own])}
-        if int(point.min()) in shares:
-            at, first = min(shares, key=lambda p: (shares[p], p)), shares[int(point.min())]
-            worst.append((shares[at] - first, name, at, first, shares[at]))
+        shares = {
+            int(p): 100.0 * float(right[own & (entries.place == p)].mean()) for p in np.unique(entries.place[own])
+        }
+        if entries.none in shares and len(shares) > 1:
+            at = min((p for p in shares if p != entries.none), key=lambda p: (shares[p], p))
+            worst.append((shares[at] - shares[entries.none], name, at, shares[entries.none], shares[at]))
+    here = " in these flights" if len(np.unique(columns.numbers("run"))) < _LEAST_RUNS else ""
     if not worst or min(worst)[0] >= 0.0:
-        return [("None of the errors costs any detector a fault. ", True)] if worst else []
-    most, least = min(worst), max(worst)
-    said: Said = [("Most is lost with ", False), (_differing(point, names, most[2]), True), (": right goes from ", False),
+        return [(f"None of the errors costs any detector a fault{here}. ", True)] if worst else []
+    most = min(worst)
+    said: Said = [(f"Most is lost{here} with ", False), (entries.called(most[2]), True), (": right goes from ", False),
                   (f"{percent(most[3])} to {percent(most[4])} %", True), (f" with {most[1]}", False)]  # fmt: skip
-    if least[1] != most[1]:
-        cost = "nothing costs" if least[0] >= 0.0 else f"the worst point costs {percent(-least[0])} % of"
-        said += [(f"; {cost} {least[1]}", False)]
+    safe = sorted((line for line in worst if line[0] >= 0.0), key=lambda line: -line[3])
+    if safe:
+        nor = f" (nor do {len(safe) - 1} more)" if len(safe) > 1 else ""
+        said += [(f"; {safe[0][1]} loses nothing{nor}, right in {percent(safe[0][3])} % without errors", False)]
+    elif len(worst) > 1:
+        least = max(worst)
+        said += [(f"; the worst costs {least[1]} {percent(-least[0])} %", False)]
     return [*said, (". ", False)]
-
-
-def _differing(point: "np.ndarray[Any, Any]", names: Mapping[str, Floats], at: int) -> str:
-    """What a point has otherwise than the first one, in words; of many errors their number."""
-    here, first = point == at, point == point.min()
-    own = [(name, float(v[here][0])) for name, v in names.items() if not np.isclose(v[here][0], v[first][0])]
-    if len(own) > _MOST_NAMED:
-        return f"{len(own)} errors at once (point {at})"
-    return " and ".join(f"{label(name)} {short(value)}" for name, value in own) or f"point {at}"

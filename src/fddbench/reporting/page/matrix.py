@@ -88,7 +88,12 @@ def words(line: Mapping[Any, Any]) -> str:
     """What the bar says: ``all 100 right, ≥ 96.4 %``, ``75 wrong site, 2 missed of 100``."""
     counts, flown = counts_of(line), int(line["flown"])
     if not flown:
-        return "none flown" if not line["infeasible"] else f"{count(line['infeasible'])} infeasible"
+        lost = [
+            f"{count(line[name])} {word}"
+            for name, word in (("failed", "without a score"), ("infeasible", "infeasible"))
+            if line[name]
+        ]
+        return ", ".join(lost) or "none flown"
     good = "quiet" if line["healthy"] else "right"
     if counts.get(good) == flown:
         ends = ends_of(line)

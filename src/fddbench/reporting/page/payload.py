@@ -13,7 +13,7 @@ from fddbench.reporting.labels import label
 from fddbench.reporting.page.cells import Cell
 from fddbench.reporting.page.columns import Columns
 from fddbench.reporting.page.sizes import SizeCurve
-from fddbench.reporting.svg.axes import ticks_text
+from fddbench.reporting.svg.axes import ticks_texts
 from fddbench.reporting.svg.charts import Parted
 from fddbench.reporting.svg.size import Fitted
 
@@ -53,7 +53,7 @@ def payload(columns: Columns, cells: Mapping[tuple[int, int], Cell], folder: str
 
 def part_names(low: Floats, high: Floats) -> list[str]:
     """What parts are called: their value, of a range its middle."""
-    return [ticks_text(0.5 * (a + b)) for a, b in zip(low.tolist(), high.tolist(), strict=True)]
+    return ticks_texts([0.5 * (a + b) for a, b in zip(low.tolist(), high.tolist(), strict=True)])
 
 
 def parted_of(own: Association | SizeCurve) -> Parted:
@@ -143,14 +143,16 @@ def fitted_of(own: SizeCurve) -> Fitted | None:
     if own.curve is None:
         return None
     sizes = np.geomspace(max(float(own.low[0]), 1e-12), float(own.high[-1]), _POINTS)
-    near = [None if end is None or end > _FAR * sizes[-1] else end for end in (own.curve.size_90, own.curve.size_90_95)]
+    near = [
+        None if end is None or end > _DRAWN_TO * sizes[-1] else end for end in (own.curve.size_90, own.curve.size_90_95)
+    ]
     return Fitted(
         middles=own.middle.tolist(), sizes=sizes.tolist(), shares=own.curve.share(sizes).tolist(), size_90=near[0],
         size_90_95=near[1],
     )  # fmt: skip
 
 
-_POINTS, _FAR = 25, 1.5
+_POINTS, _DRAWN_TO = 25, 1.5
 """Points of a drawn curve; how far beyond the largest size flown its end may be drawn."""
 
 

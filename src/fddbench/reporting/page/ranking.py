@@ -16,11 +16,12 @@ __all__ = ["Rank", "Weakest", "beside_best", "ranking", "second_beside_best"]
 
 @dataclass(frozen=True, kw_only=True)
 class Weakest:
-    """Scenario in which a detector fails most often, and in how many of its decided flights."""
+    """Scenario in which a detector fails most often, in how many of its decided flights, and how many more are as bad."""
 
     scenario: str
     failed: int
     decided: int
+    also: int = 0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,6 +48,10 @@ class Rank:
         Upper end of the 95 % interval of their share, by run [%].
     weakest : Weakest or None
         None: nothing failed, or nothing was decided.
+    lost : int
+        Flights without a score, because the detector did not come to their end.
+    names_sites : bool
+        False: it only detects.
     in_sample, voted : bool
         Tuned on these flights; sees the voted signal alone.
     """
@@ -63,6 +68,8 @@ class Rank:
     alarms_high_percent: float | None
     weakest: Weakest | None
     runs: int = 0
+    lost: int = 0
+    names_sites: bool = True
     in_sample: bool = False
     voted: bool = False
 
@@ -72,7 +79,8 @@ def ranking(
 ) -> list[Rank]:
     """Detectors by the share of decided faulty flights that were right, then fewest healthy sites declared and false alarms.
 
-    Those that see the voted signal alone come after all others, for they see less.
+    Those that see the voted signal alone come after all others, for they see less; flights that a detector did not bring to an
+    end are none that it was right in.
     """
     of = {str(line["detector"]): line for line in alarms.to_dict("records")}
     lines = []
@@ -86,19 +94,29 @@ def ranking(
         high = line.get("alarms_high_percent")
         lines.append(
             Rank(
-                detector=name, number=number, faulty=len(own), decided=int(sure.sum()), undecided=int((~sure).sum()),
+                detector=name,
+                number=number,
+                faulty=len(own),
+                decided=int(sure.sum()),
+                undecided=int((~sure).sum()),
                 right=korn_graubard(outcome[sure] == "right", columns.whole("run", own[sure])),
                 outcomes={str(each): int(n) for each, n in counts.items()},
-                distinct_flights=int(line.get("distinct_flights", 0)), alarms=int(line.get("alarms", 0)),
+                distinct_flights=int(line.get("distinct_flights", 0)),
+                alarms=int(line.get("alarms", 0)),
                 alarms_high_percent=None if high is None or pd.isna(high) else float(high),
-                weakest=_weakest(columns, own), runs=int(line.get("runs", 0)), in_sample=name in in_sample, voted=name in voted,
+                weakest=_weakest(columns, own),
+                runs=int(line.get("runs", 0)),
+                lost=int(columns.lost[places].sum()),
+                names_sites=not len(own) or not bool(np.isnan(columns.numbers("isolated")[own]).all()),
+                in_sample=name in in_sample,
+                voted=name in voted,
             )
-        )  # fmt: skip
+        )
     return sorted(lines, key=_order)
 
 
 def _order(line: Rank) -> tuple[bool, float, float, float, int]:
-    share = -1.0 if line.right.share is None else line.right.share
+    share = -1.0 if line.right.share is None else line.right.share * line.decided / (line.decided + line.lost)
     wrong = line.outcomes.get("wrong_site", 0) / max(line.decided, 1)
     return line.voted, -share, wrong, line.alarms / max(line.distinct_flights, 1), line.number
 
@@ -113,7 +131,8 @@ def _weakest(columns: Columns, own: "np.ndarray[Any, Any]") -> Weakest | None:
         return None
     share = np.where(decided > 0, failed / np.maximum(decided, 1), -1.0)
     at = max(range(n), key=lambda i: (share[i], failed[i], -i))
-    return Weakest(scenario=columns.scenarios[at], failed=int(failed[at]), decided=int(decided[at]))
+    also = int(np.sum(share == share[at])) - 1
+    return Weakest(scenario=columns.scenarios[at], failed=int(failed[at]), decided=int(decided[at]), also=also)
 
 
 def beside_best(columns: Columns, best: int, other: int, scenario: int | None = None) -> PairedShares:

@@ -23,11 +23,14 @@ def silence(ranks: Sequence[Rank]) -> str:
     flights = f"none in {count(line.distinct_flights)} flight{'' if line.distinct_flights == 1 else 's'}"
     if line.alarms_high_percent is None:
         return f"{flights} of one run leaves everything open"
-    by_run = "" if line.runs == line.distinct_flights else f" of {count(line.runs)} runs"
-    why = (
-        " (about 3.7 in as many runs, for flights of one run are one witness)" if by_run else " (about 3.7 in as many)"
+    by_run, units = (
+        ("", line.distinct_flights)
+        if line.runs == line.distinct_flights
+        else (f" of {count(line.runs)} runs", line.runs)
     )
-    return f"{flights}{by_run} leaves up to {percent(line.alarms_high_percent)} %{why}"
+    many = f"about {line.alarms_high_percent * units / 100.0:.1f} in as many"
+    why = f"{many} runs, for flights of one run are one witness" if by_run else many
+    return f"{flights}{by_run} leaves up to {percent(line.alarms_high_percent)} % ({why})"
 
 
 def _notes(line: Rank) -> str:
@@ -45,11 +48,14 @@ def _cells(line: Rank) -> list[Cell]:
     worst = line.weakest
     return [
         _right(line),
-        Cell(count(wrong), of, alarm=wrong > 0),
+        Cell(count(wrong), of, alarm=wrong > 0) if line.names_sites else Cell(DASH, "names no site"),
         Cell(count(slow), ", ".join(parts) if len(parts) > 1 else of, alarm=slow > 0),
         Cell(count(line.undecided), f"of {count(line.faulty)}" if line.undecided else ""),
         _alarms(line),
-        Cell(worst.scenario, f"{count(worst.failed)} of {count(worst.decided)} failed")
+        Cell(
+            worst.scenario,
+            f"{count(worst.failed)} of {count(worst.decided)} failed{f', {worst.also} more' if worst.also else ''}",
+        )
         if worst
         else Cell("none failed"),
     ]
@@ -65,7 +71,7 @@ def _right(line: Rank) -> Cell:
 
 def _alarms(line: Rank) -> Cell:
     if not line.distinct_flights:
-        return Cell(DASH, "no healthy stretch")
+        return Cell(DASH, "no score" if line.lost else "no healthy stretch")
     high = f", ≤ {percent(line.alarms_high_percent)} %" if line.alarms_high_percent is not None else ""
     runs = f" of {count(line.runs)} run{'' if line.runs == 1 else 's'}" if line.runs != line.distinct_flights else ""
     flights = f"of {count(line.distinct_flights)} flight{'' if line.distinct_flights == 1 else 's'}"

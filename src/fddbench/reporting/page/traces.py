@@ -10,6 +10,7 @@ import pandas as pd
 from fddbench.interfaces import Floats, Recording
 from fddbench.reporting.declarations import declarations
 from fddbench.reporting.labels import label
+from fddbench.reporting.names import TITLE, shortened
 from fddbench.reporting.page.promises import Promise
 from fddbench.reporting.signals import rank_of_cases, redundant, signal_panels, window
 from fddbench.reporting.svg.palette import SERIES, band
@@ -66,6 +67,9 @@ def _section(
         changes = [
             f"{sites or ('alarm' if alarm else 'nothing')} at {t:g} s" for n, t, sites, alarm in said if n == name
         ]
+        reasons = recording.errors.get(name)
+        if reasons and reasons[int(ranked[0])]:
+            changes = [*changes[:2], f"did not come to its end, {reasons[int(ranked[0])]}"]
         notes.append((name, ", ".join(changes[:3]) + (" …" if len(changes) > 3 else "") if changes else "nothing"))
         if promised:
             notes[-1] = (name, f"{notes[-1][1]}; {_distance(recording, name, int(ranked[0]), kept, promised)}")
@@ -112,7 +116,7 @@ def _panels(
     most: int,
     promised: Mapping[str, Floats],
 ) -> list[Scene]:
-    signals = recording.detectors[detector]
+    signals, title = recording.detectors[detector], shortened(recording.detectors, TITLE)[detector]
     found = []
     for names in _telling(signals, int(ranked[0]), kept)[:most]:
         values = signals[names[0]][kept]
@@ -123,7 +127,7 @@ def _panels(
         found.append(
             panel_scene(
                 Panel(
-                    title=detector, y_name=label("p_" + names[0]), time_s=recording.time_s[kept], bands=_density(values),
+                    title=title, y_name=label("p_" + names[0]), time_s=recording.time_s[kept], bands=_density(values),
                     lines=lines, onset_s=_onset(recording, int(ranked[0])), look=band(number % SERIES),
                 ),
                 points=100,

@@ -8,7 +8,10 @@ import numpy as np
 from fddbench.interfaces import Floats
 from fddbench.reporting.svg.scene import Mark, Path, Text
 
-__all__ = ["Plot", "Scale", "linear", "logarithmic", "ticks_text"]
+__all__ = ["Plot", "Scale", "linear", "logarithmic", "ticks_text", "ticks_texts"]
+
+
+_MOST_DIGITS = 9
 
 
 @dataclass(frozen=True)
@@ -57,15 +60,28 @@ def logarithmic(low: float, high: float, most: int = 8) -> Scale:
     return Scale(low, high, ticks, log=True)
 
 
-def ticks_text(value: float) -> str:
+def ticks_text(value: float, digits: int = 3) -> str:
     """Tick in words: three digits, thousands as k.
 
     >>> ticks_text(22500.0), ticks_text(0.25), ticks_text(100.0)
     ('22.5k', '0.25', '100')
     """
     if abs(value) >= 10000.0:
-        return f"{value / 1000.0:.4g}k"
-    return f"{value:.4g}" if abs(value) >= 1000.0 else f"{value:.3g}"
+        return f"{value / 1000.0:.{digits + 1}g}k"
+    return f"{value:.{digits + 1}g}" if abs(value) >= 1000.0 else f"{value:.{digits}g}"
+
+
+def ticks_texts(values: Sequence[float]) -> list[str]:
+    """Ticks in words, with as many digits as it takes that different ones never look alike.
+
+    >>> ticks_texts([248.1, 248.4, 249.0]), ticks_texts([1.0, 2.0])
+    (['248.1', '248.4', '249'], ['1', '2'])
+    """
+    for digits in range(3, _MOST_DIGITS):
+        found = [ticks_text(value, digits) for value in values]
+        if len(set(found)) == len(set(values)):
+            return found
+    return [ticks_text(value) for value in values]  # they differ by rounding
 
 
 @dataclass(frozen=True)

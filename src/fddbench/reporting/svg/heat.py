@@ -49,7 +49,7 @@ def heat_scene(
     note : str
         Below the title.
     """
-    top = 36.0 if note else 22.0
+    top = 40.0 if note else 26.0
     plot = Plot(66, top, _SIZE + 40, _SIZE, linear(x.low, x.high), linear(y.low, y.high))
     marks: list[Mark] = [Text(2, 12, title, bold=True)] if title else []
     marks += [Text(2, 27, note, "ts", size=10)] if note else []
@@ -63,7 +63,7 @@ def heat_scene(
         Text(plot.left + plot.width / 2, bottom + 33, x.name, "ts", "middle"),
         Text(10, plot.top + plot.height / 2, y.name, "ts", "middle", turned=True),
     ]
-    return Scene(plot.left + plot.width + 12, bottom + 40, label, marks)
+    return Scene(plot.left + plot.width + 22, bottom + 40, label, marks)
 
 
 def _cell(plot: Plot, cell: HeatCell, look: str) -> list[Mark]:

@@ -76,7 +76,7 @@ def panel_scene(panel: Panel, *, points: int = 120) -> Scene:
     plot = Plot(
         50,
         18,
-        _WIDTH - 58,
+        _WIDTH - 66,  # the last tick has its half beyond the axis
         _HEIGHT,
         linear(float(panel.time_s[0]), float(panel.time_s[-1]), 6),
         linear(low - room, high + room, 4),

@@ -40,7 +40,7 @@ function curve(s, d) {
   const steps = (c, k) => { let p = `M${X(A.a)} ${Y(0)}`; c.i[0].forEach((t, i) => p += `H${X(t)}V${Y(k[i] / c.n)}`); return p + `H${X(c.i[6])}`; };
   own.sort((p, q) => (p[0] === d) - (q[0] === d)).forEach(([j, c]) => {
     const [t, k, , lo, hi, , end] = c.i;
-    if (t.length && lo[0] !== null) {
+    if (j === d && t.length && lo[0] !== null) {
       let up = '', down = '';
       t.forEach((v, i) => { const n = i + 1 < t.length ? t[i + 1] : end; up += ` ${X(v)},${Y(hi[i] / 1000)} ${X(n)},${Y(hi[i] / 1000)}`; down = ` ${X(n)},${Y(lo[i] / 1000)} ${X(v)},${Y(lo[i] / 1000)}` + down; });
       g += `<polygon class="b${j % 8}" points="${up + down}"/>`;
@@ -50,7 +50,7 @@ function curve(s, d) {
   const me = D.c[s][d];
   if (me.i && me.i[2].some(k => k)) g += `<path class="wr" d="${steps(me, me.i[2])}"/>`;
   const key = own.sort((p, q) => p[0] - q[0]).map(([j]) => `<li><svg viewBox="0 0 28 9" aria-hidden="true"><path class="s${j % 16}" d="M0 5h28"/></svg>${esc(D.d[j])}</li>`).join('');
-  return `<figure><h3>Found right, by time</h3><svg viewBox="0 0 560 250" role="img" aria-label="Share of all flights found by each time">${g}</svg><ul class="key">${key}</ul><figcaption>Share of all flown flights, 95 % bands pointwise; a wrong verdict is never taken out of n. Dashed: limit.${me.i && me.i[2].some(k => k) ? ' Dotted red: a healthy site declared, here.' : ''}${me.i && me.i[5] ? ` ${me.i[5]} more lost to an alarm before the onset.` : ''} A curve ends where the first open flight ends.</figcaption></figure>`;
+  return `<figure><h3>Found right, by time</h3><svg viewBox="0 0 560 250" role="img" aria-label="Share of all flights found by each time">${g}</svg><ul class="key">${key}</ul><figcaption>Share of all flown flights${me.i && me.i[0].length && me.i[3][0] !== null ? `, 95 % band of ${esc(D.d[d])} pointwise` : ''}; a wrong verdict is never taken out of n. Dashed: limit.${me.i && me.i[2].some(k => k) ? ' Dotted red: a healthy site declared, here.' : ''}${me.i && me.i[5] ? ` ${me.i[5]} more lost to an alarm before the onset.` : ''} A curve ends where the first open flight ends.</figcaption></figure>`;
 }
 function parts(name, labels, k, n, lo, hi, cls, what, foot) {
   const m = labels.length, W = Math.max(300, 52 * m + 50), w = (W - 56) / m, Y = p => R(8 + 96 * (1 - p));
@@ -96,8 +96,7 @@ function beside(c) {
   if (!c.b) return '';
   const [diff, lo, hi, p, a, b, n] = c.b;
   const best = esc(document.getElementById('detail').dataset.best || '');
-  const said = p !== null && p < .05 ? '' : ' Chance may explain it.';
-  return `<p>Beside ${best} on the same ${thin(n)} flights: ${diff > 0 ? '+' : ''}${diff} % right${lo === null ? '' : ` (${lo} to ${hi})`}; right here alone ${thin(b)}, there alone ${thin(a)}; McNemar by run, Holm over scenarios: p = ${p === null ? '–' : p}.${said}</p>`;
+  return `<p>Beside ${best} on the same ${thin(n)} flights: ${diff > 0 ? '+' : ''}${diff} % right${lo === null ? '' : ` (${lo} to ${hi})`}; right here alone ${thin(b)}, there alone ${thin(a)}; ${lo === null ? 'one run is no test' : `McNemar by run, Holm over scenarios: p = ${p === null ? '–' : p}`}.${lo === null || p !== null && p < .05 ? '' : ' Chance may explain it.'}</p>`;
 }
 function detail() {
   const {s, d} = state, c = D.c[s] && D.c[s][d], box = document.getElementById('detail');
