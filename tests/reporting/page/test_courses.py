@@ -44,7 +44,7 @@ def worst(told):
     """What is said of 20 runs that fly every value, 9, 15 and 25 m."""
 
     def say(outcome, about="Which discrete gust is worst for the published scheme?"):
-        rows = told(("jam_a", "jam_b"), ("one", "other"), 60, lambda s, d, run: outcome(s, run % 3, run // 3))
+        rows = told(("jam_a", "jam_b"), ("one", "other"), 60, lambda s, d, run: outcome(s, run % 3, run // 3, d))
         number = rows["run"].to_numpy(dtype=int)
         rows[GUST], rows["point"], rows["run"] = np.array([9.0, 15.0, 25.0])[number % 3], number % 3, number // 3
         ranks = ranking(Columns(rows), summarize_alarms(rows))
@@ -54,7 +54,7 @@ def worst(told):
 
 
 def test_which_value_is_worst_is_said_where_it_is_asked(worst):
-    lost = worst(lambda s, point, run: "missed" if point == 1 else "right")
+    lost = worst(lambda s, point, run, d: "missed" if point == 1 else "right")
     assert lost == "gust gradient [m] 15 is worst: one is right in 0 % there, in up to 100 % elsewhere. "
     assert worst(lambda *_: "right") == (
         "None is worse than another, gust gradient [m] of 9 to 25: one is right in 100 % at each. "
@@ -63,9 +63,9 @@ def test_which_value_is_worst_is_said_where_it_is_asked(worst):
 
 
 def test_no_value_is_worst_that_chance_may_explain_or_that_is_not_alone(worst):
-    few = worst(lambda s, point, run: "missed" if (s, point, run) == ("jam_a", 1, 0) else "right")
+    few = worst(lambda s, point, run, d: "missed" if (s, point, run) == ("jam_a", 1, 0) else "right")
     assert few == "Not decided which is worst: one is right in 97.5 to 100 % over gust gradient [m] 9 to 25. "
-    tie = worst(lambda s, point, run: "missed" if point else "right")
+    tie = worst(lambda s, point, run, d: "missed" if point else "right")
     assert tie.startswith("Not decided which is worst: one is right in 0 to 100 %")
 
 
@@ -74,6 +74,13 @@ def test_a_value_that_some_scenarios_do_not_fly_is_not_compared(told):
     rows = rows[~((rows["scenario"] == "jam_a") & (rows[GUST] == 15.0))].reset_index(drop=True)
     ranks = ranking(Columns(rows), summarize_alarms(rows))
     assert worst_value("Which discrete gust is worst?", Columns(rows), [GUST], ranks) == []
+
+
+def test_a_value_at_which_nothing_is_decided_is_not_the_worst(worst):
+    """Of no decided flight a share of 0 % was told: the value that nobody had judged was the worst."""
+    outcomes = {"one": ("right", "undecided", "right"), "other": ("right", "missed", "missed")}
+    said = worst(lambda s, point, run, d: outcomes[d][point])
+    assert said == "None is worse than another, gust gradient [m] of 9 to 25: one is right in 100 % at each. "
 
 
 def test_where_faults_are_found_is_said_where_it_is_asked(told):

@@ -57,6 +57,12 @@ def _values(columns: Columns, name: str, *, everywhere: bool = False) -> "np.nda
     return known if all(each == wanted for each in there) else none
 
 
+def _first_swept(columns: Columns, swept: Sequence[str]) -> "tuple[str, np.ndarray[Any, Any]] | None":
+    """The first column of which every faulty scenario flies every value, and the values; None without one."""
+    found = ((name, _values(columns, name, everywhere=True)) for name in swept)
+    return next(((name, known) for name, known in found if len(known)), None)
+
+
 def _called(name: str) -> str:
     return label(name).replace(" [-]", "")
 
@@ -67,12 +73,16 @@ def worst_value(about: str, columns: Columns, swept: Sequence[str], ranks: Seque
     One is called the worst where a paired test by run says so beside every other one, p adjusted by Holm.
     """
     best = ranks[0] if ranks and ranks[0].decided else None
-    names = [name for name in swept if len(_values(columns, name, everywhere=True))]
-    if re.match(r"Which\b[^?]*\bis worst\b", about) is None or best is None or not names:
+    asked = re.match(r"Which\b[^?]*\bis worst\b", about) is not None
+    first = _first_swept(columns, swept) if asked else None
+    if first is None or best is None:
         return []
-    name, known = names[0], _values(columns, names[0], everywhere=True)
+    name, known = first
     own = columns.faulty & columns.decided & (columns.detector == best.number)
+    known = np.array([value for value in known if (own & (columns.numbers(name) == value)).any()])
     shares = [_right(columns, own & (columns.numbers(name) == value)) or 0.0 for value in known]
+    if len(known) < 2:
+        return []
     least, most, worst = min(shares), max(shares), float(known[int(np.argmin(shares))])
     shown, here = shorts(known.tolist()), " in these flights" if best.right.runs < 2 else ""
     if least == most:
@@ -111,12 +121,12 @@ def found_at(about: str, columns: Columns, swept: Sequence[str], ranks: Sequence
 
     ``Right in 90 % or more at fault 1 frequency [Hz] of 0.05 to 10, one_sensor: coast at all 12; sliding_mode at 0.3 to 2.``
     """
-    names = [name for name in swept if len(_values(columns, name, everywhere=True))]
-    if not re.match(r"At which\b", about) or not names:
+    first = _first_swept(columns, swept) if re.match(r"At which\b", about) else None
+    if first is None:
         return []
-    known, values = _values(columns, names[0], everywhere=True), columns.numbers(names[0])
-    shown = shorts(known.tolist())
-    said: Said = [(f"Right in {_MOST_FOUND:g} % or more at {_called(names[0])} of {shown[0]} to {shown[-1]}, ", False)]
+    name, known = first
+    values, shown = columns.numbers(name), shorts(known.tolist())
+    said: Said = [(f"Right in {_MOST_FOUND:g} % or more at {_called(name)} of {shown[0]} to {shown[-1]}, ", False)]
     for s, scenario in list(enumerate(columns.scenarios))[:_MOST_TOLD]:
         here = columns.faulty & columns.decided & (columns.scenario == s)
         at: dict[str, list[str]] = {}
